@@ -1,0 +1,5 @@
+//! Event-sourced, record-and-replay processor for dynamic 3D scene graphs.
+pub mod time;
+pub mod geometry;
+mod bytes;
+pub mod graph;
