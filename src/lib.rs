@@ -3,3 +3,5 @@ pub mod time;
 pub mod geometry;
 mod bytes;
 pub mod graph;
+pub mod change;
+pub mod event;

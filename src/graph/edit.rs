@@ -107,6 +107,15 @@ impl SceneGraph {
         Ok(())
     }
 
+    /// Replaces all that is known of an object.
+    pub fn update_object(&mut self, id: NodeId, object: Object) -> Result<(), GraphError> {
+        check_decay_rate(id, object.decay_rate)?;
+        self.place_object(id, &Placement::of(&object))?;
+        let slot = self.objects.get_mut(id.index()).expect("it was just placed");
+        slot.object = Object { decay_rate: object.decay_rate + 0.0, ..object };
+        Ok(())
+    }
+
     /// Notes that an object was seen at `at`, with better geometry where given.
     pub fn observe_object(
         &mut self,
