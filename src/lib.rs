@@ -5,3 +5,5 @@ mod bytes;
 pub mod graph;
 pub mod change;
 pub mod event;
+pub mod modality;
+pub mod updater;

@@ -8,6 +8,7 @@
 //! Invariant: a [`Transaction`] is applied whole or not at all.
 
 mod evidence;
+mod memory;
 mod planner;
 mod primitive;
 mod record;
@@ -21,5 +22,6 @@ pub use planner::{Plan, PlanConfig, plan};
 pub use primitive::{Departure, Primitive, Sighting, Undo};
 pub use record::{Action, ChangeRecord, Claim, Modality, NodeRef, Occurred, Outcome};
 pub use rejection::Rejection;
+pub use resolve::{locate, locate_room};
 pub use transaction::{Cause, Step, Transaction, TransactionError};
 pub use world::{World, WorldError};

@@ -15,6 +15,26 @@ pub(super) struct Hints<'a> {
     pub not: Option<NodeId>,
 }
 
+/// The object that `wanted` names, looked for in `room` if that is given.
+///
+/// # Errors
+/// [`Rejection`] if nothing or several things answer to the name.
+pub fn locate(
+    world: &World,
+    wanted: &NodeRef,
+    room: Option<NodeId>,
+) -> Result<NodeId, Rejection> {
+    find_object(world, wanted, &Hints { room, ..Hints::default() }).map(|found| found.id)
+}
+
+/// The room that `wanted` names.
+///
+/// # Errors
+/// [`Rejection`] if no room or several rooms answer to the name.
+pub fn locate_room(world: &World, wanted: &NodeRef) -> Result<NodeId, Rejection> {
+    find_room(world.graph(), wanted)
+}
+
 /// Who was found, and the record of the search.
 #[derive(Debug)]
 pub(super) struct Found {

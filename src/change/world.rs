@@ -70,13 +70,4 @@ impl World {
     pub fn next_indices(&self) -> [u32; 4] {
         self.next
     }
-
-    /// Puts a world together from its parts, as a checkpoint stores them.
-    pub(crate) fn from_parts(
-        graph: SceneGraph,
-        departed: BTreeMap<NodeId, Object>,
-        next: [u32; 4],
-    ) -> Self {
-        Self { graph, departed, next }
-    }
 }

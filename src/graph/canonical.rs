@@ -135,8 +135,13 @@ fn write_region(out: &mut Writer, region: &Region, labels: &BTreeMap<&Label, u64
     out.option(region.parent, |out, id| out.u64(id.bits()));
 }
 
-pub(crate) fn write_object(out: &mut Writer, object: &Object, labels: &BTreeMap<&Label, u64>) {
+fn write_object(out: &mut Writer, object: &Object, labels: &BTreeMap<&Label, u64>) {
     out.u64(labels[&object.label]);
+    write_object_bytes(out, object);
+}
+
+/// All of an object but its label.
+pub(crate) fn write_object_bytes(out: &mut Writer, object: &Object) {
     write_pose(out, &object.pose);
     write_size(out, object.size);
     out.f64(object.decay_rate);
@@ -250,11 +255,16 @@ fn read_objects(
     Ok(())
 }
 
-pub(crate) fn read_object(
-    input: &mut Reader<'_>,
-    labels: &[Label],
-) -> Result<Object, CanonicalError> {
+fn read_object(input: &mut Reader<'_>, labels: &[Label]) -> Result<Object, CanonicalError> {
     let label = read_label(input, labels)?;
+    read_object_bytes(input, label)
+}
+
+/// All of an object but its label.
+pub(crate) fn read_object_bytes(
+    input: &mut Reader<'_>,
+    label: Label,
+) -> Result<Object, CanonicalError> {
     let pose = read_pose(input)?;
     let size = read_size(input)?;
     let decay_rate = input.f64().ok_or(malformed("decay rate"))?;

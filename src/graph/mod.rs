@@ -19,6 +19,7 @@ mod slots;
 use std::collections::BTreeSet;
 
 pub use canonical::{CANONICAL_VERSION, CanonicalError, StateHash};
+pub(crate) use canonical::{read_object_bytes, write_object_bytes};
 pub use edit::Placement;
 pub use error::GraphError;
 pub use id::{Layer, NodeId, NodeIdError};

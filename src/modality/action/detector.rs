@@ -1,0 +1,251 @@
+//! [`ActionDetector`]: from task statuses to claims.
+
+use super::memory::{self, InHand, TaskMemory, Tasks};
+use crate::bytes::{Reader, Writer};
+use crate::change::{
+    Action, Claim, EvidenceRef, Modality, NodeRef, Occurred, Rejection, locate, locate_room,
+};
+use crate::event::{Interpretation, Status, Task, TaskStatus};
+use crate::graph::{CanonicalError, NodeId};
+use crate::modality::Desk;
+use crate::modality::desk::{evidence, node_ref};
+
+const TASK_TOPIC: &str = "/robot/task";
+const STATUS_TOPIC: &str = "/robot/task_status";
+
+/// Notices what the robot does to the world with its own hands. See the module docs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ActionDetector {
+    tasks: Tasks,
+}
+
+impl ActionDetector {
+    /// Name and version, as change records carry it.
+    pub const NAME: &'static str = "action/1";
+
+    /// A task was announced by event `order`.
+    pub fn task(&mut self, desk: &mut Desk<'_>, order: u64, task: &Task) {
+        desk.interpret(interpret(desk, order, task));
+        let memory = self.tasks.entry(task.task_id.clone()).or_default();
+        memory.announced = Some((order, task.clone()));
+    }
+
+    /// A status was reported by event `order`.
+    pub fn task_status(&mut self, desk: &mut Desk<'_>, order: u64, status: &TaskStatus) {
+        let memory = self.tasks.remove(&status.task_id).unwrap_or_default();
+        let mut report = Report { desk, order, status, memory };
+        let over = match status.status {
+            Status::Started => false,
+            Status::Picked => report.picked(),
+            Status::Placed => report.placed(),
+            Status::Failed => report.failed(),
+            Status::Done => report.done(),
+        };
+        let memory = report.memory;
+        // A task that nobody announced is remembered only while its hand is full.
+        let idle = memory.announced.is_none() && memory.in_hand == InHand::Nothing;
+        if !over && !idle {
+            self.tasks.insert(status.task_id.clone(), memory);
+        }
+    }
+
+    pub(crate) fn write_bytes(&self, out: &mut Writer) {
+        memory::write(&self.tasks, out);
+    }
+
+    pub(crate) fn read_bytes(input: &mut Reader<'_>) -> Result<Self, CanonicalError> {
+        Ok(Self { tasks: memory::read(input)? })
+    }
+}
+
+/// One status and what is known about its task. The methods return whether the task is over.
+struct Report<'a, 'd> {
+    desk: &'a mut Desk<'d>,
+    order: u64,
+    status: &'a TaskStatus,
+    memory: TaskMemory,
+}
+
+impl Report<'_, '_> {
+    fn picked(&mut self) -> bool {
+        let object = self.object();
+        let claim = Claim {
+            source_room: self.status.room.clone().or_else(|| self.task()?.source_room.clone()),
+            support: self.status.support.clone(),
+            held: true,
+            ..self.claim(Action::Removed, object.clone())
+        };
+        if object.is_empty() {
+            let rejection = self.names_nothing();
+            self.desk.reject(claim, rejection);
+            return false;
+        }
+        self.memory.in_hand = match self.desk.claim(claim) {
+            Ok(NodeRef { id: Some(id), .. }) => InHand::Known(id),
+            Err(Rejection::Ambiguous { candidates, .. }) => InHand::Ambiguous(candidates),
+            Err(Rejection::AlreadyHeld { object } | Rejection::AlreadyAbsent { object }) => {
+                object.id.map_or(InHand::Nothing, InHand::Known)
+            }
+            Ok(_) | Err(_) => InHand::Unknown(object),
+        };
+        false
+    }
+
+    fn placed(&mut self) -> bool {
+        let (action, object) = match &self.memory.in_hand {
+            InHand::Known(id) if !self.names_another(*id) => {
+                (Action::Moved, node_ref(self.desk.world(), *id))
+            }
+            InHand::Unknown(object) => (self.moved_or_added(object), object.clone()),
+            InHand::Known(_) | InHand::Nothing => {
+                let object = self.object();
+                (self.moved_or_added(&object), object)
+            }
+            InHand::Ambiguous(candidates) => {
+                let candidates = candidates.clone();
+                let claim = self.placing(Action::Moved, self.object());
+                let task = self.status.task_id.clone();
+                self.desk.reject(claim, Rejection::PlacedAmbiguous { task, candidates });
+                self.memory.in_hand = InHand::Nothing;
+                return false;
+            }
+        };
+        let claim = self.placing(action, object.clone());
+        if object.is_empty() {
+            let rejection = self.names_nothing();
+            self.desk.reject(claim, rejection);
+        } else if let Ok(placed) = self.desk.claim(claim) {
+            // Something else may have been placed than what is in the hand.
+            if !matches!(self.memory.in_hand, InHand::Known(id) if placed.id != Some(id)) {
+                self.memory.in_hand = InHand::Nothing;
+            }
+        }
+        false
+    }
+
+    /// Whether the report is about another object than `id`.
+    fn names_another(&self, id: NodeId) -> bool {
+        self.status.object.as_ref().and_then(|object| object.id).is_some_and(|named| named != id)
+    }
+
+    fn failed(&mut self) -> bool {
+        let Some(object) = self.held() else { return true };
+        let dropped = self.status.pose.is_some()
+            || self.status.room.is_some()
+            || self.status.support.is_some();
+        if dropped {
+            // Where the task wanted it is not where it fell: only the report counts.
+            let claim = Claim {
+                target_room: self.status.room.clone(),
+                support: self.status.support.clone(),
+                ..self.claim(Action::Moved, object)
+            };
+            if self.desk.claim(claim).is_err() {
+                return false;
+            }
+        } else {
+            let task = self.status.task_id.clone();
+            let rejection = Rejection::FailedHolding { task, object: object.clone() };
+            self.desk.reject(self.placing(Action::Moved, object), rejection);
+        }
+        true
+    }
+
+    fn done(&mut self) -> bool {
+        if let Some(object) = self.held() {
+            let task = self.status.task_id.clone();
+            let rejection = Rejection::DoneHolding { task, object: object.clone() };
+            self.desk.reject(self.placing(Action::Moved, object), rejection);
+        }
+        true
+    }
+
+    /// What the task has in the gripper, if that is a known object that is still there.
+    fn held(&self) -> Option<NodeRef> {
+        let InHand::Known(id) = self.memory.in_hand else { return None };
+        let world = self.desk.world();
+        world.graph().object(id).is_some_and(|o| o.is_held()).then(|| node_ref(world, id))
+    }
+
+    /// An object that is known was moved; one that nobody knew is new.
+    fn moved_or_added(&self, object: &NodeRef) -> Action {
+        match locate(self.desk.world(), object, None) {
+            Err(Rejection::UnknownObject { .. }) if object.label.is_some() => Action::Added,
+            _ => Action::Moved,
+        }
+    }
+
+    fn placing(&self, action: Action, object: NodeRef) -> Claim {
+        Claim {
+            target_room: self.status.room.clone().or_else(|| self.task()?.target_room.clone()),
+            support: self.status.support.clone().or_else(|| self.task()?.support.clone()),
+            ..self.claim(action, object)
+        }
+    }
+
+    fn claim(&self, action: Action, object: NodeRef) -> Claim {
+        Claim {
+            modality: Modality::Action,
+            detector: ActionDetector::NAME.into(),
+            action,
+            object,
+            source_room: None,
+            target_room: None,
+            support: None,
+            pose: self.status.pose,
+            size: None,
+            confidence: 1.0,
+            occurred: Occurred::at(self.desk.at()),
+            held: false,
+            evidence: self.evidence(),
+        }
+    }
+
+    fn evidence(&self) -> Vec<EvidenceRef> {
+        let announced = self.memory.announced.as_ref();
+        let task = announced.map(|(order, _)| evidence(TASK_TOPIC, *order));
+        std::iter::once(evidence(STATUS_TOPIC, self.order)).chain(task).collect()
+    }
+
+    fn object(&self) -> NodeRef {
+        let named = self.status.object.clone();
+        named.or_else(|| self.task()?.object.clone()).unwrap_or_default()
+    }
+
+    fn task(&self) -> Option<&Task> {
+        self.memory.announced.as_ref().map(|(_, task)| task)
+    }
+
+    fn names_nothing(&self) -> Rejection {
+        match self.task() {
+            Some(_) => Rejection::NothingNamed,
+            None => Rejection::UnknownTask { task: self.status.task_id.clone() },
+        }
+    }
+}
+
+/// What the nodes named by a task mean against the world as it is now.
+fn interpret(desk: &Desk<'_>, order: u64, task: &Task) -> Interpretation {
+    let world = desk.world();
+    let mut notes = Vec::new();
+    let mut room = |room: &Option<NodeRef>| -> Option<NodeId> {
+        locate_room(world, room.as_ref()?).map_err(|why| notes.push(why.to_string())).ok()
+    };
+    let (source, target) = (room(&task.source_room), room(&task.target_room));
+    let mut thing = |thing: &Option<NodeRef>, room: Option<NodeId>| -> Option<NodeId> {
+        locate(world, thing.as_ref()?, room).map_err(|why| notes.push(why.to_string())).ok()
+    };
+    let (object, support) = (thing(&task.object, source), thing(&task.support, target));
+    if task.object.is_none() {
+        notes.push("the task names no object".to_owned());
+    }
+    let named = |id: Option<NodeId>| id.map(|id| node_ref(world, id));
+    Interpretation {
+        of: evidence(TASK_TOPIC, order),
+        object: named(object),
+        source_room: named(source),
+        target_room: named(target),
+        support: named(support),
+        note: notes.join("; "),
+    }
+}

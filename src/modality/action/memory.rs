@@ -1,0 +1,122 @@
+//! What the detector remembers between inputs, and its bytes.
+
+use std::collections::BTreeMap;
+
+use crate::bytes::{Reader, Writer};
+use crate::change::NodeRef;
+use crate::event::Task;
+use crate::graph::{CanonicalError, Label, NodeId};
+
+/// What a task has in the gripper.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum InHand {
+    /// Nothing, as far as is known.
+    #[default]
+    Nothing,
+    /// This object.
+    Known(NodeId),
+    /// Something of this name that the graph does not know.
+    Unknown(NodeRef),
+    /// One of these.
+    Ambiguous(Vec<NodeId>),
+}
+
+/// What is remembered of a task that is not over.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct TaskMemory {
+    /// What was announced, and the number of the event that did.
+    pub announced: Option<(u64, Task)>,
+    pub in_hand: InHand,
+}
+
+/// By task id.
+pub(super) type Tasks = BTreeMap<String, TaskMemory>;
+
+pub(super) fn write(tasks: &Tasks, out: &mut Writer) {
+    out.u64(tasks.len() as u64);
+    for (id, task) in tasks {
+        out.text(id);
+        out.option(task.announced.as_ref(), |out, (order, task)| {
+            out.u64(*order);
+            out.text(&task.instruction);
+            for node in [&task.object, &task.source_room, &task.target_room, &task.support] {
+                out.option(node.as_ref(), write_ref);
+            }
+        });
+        write_in_hand(&task.in_hand, out);
+    }
+}
+
+fn write_ref(out: &mut Writer, node: &NodeRef) {
+    out.u64(node.id.map_or(0, NodeId::bits));
+    out.text(node.label.as_ref().map_or("", Label::as_str));
+}
+
+fn write_in_hand(in_hand: &InHand, out: &mut Writer) {
+    match in_hand {
+        InHand::Nothing => out.u64(0),
+        InHand::Known(id) => {
+            out.u64(1);
+            out.u64(id.bits());
+        }
+        InHand::Unknown(node) => {
+            out.u64(2);
+            write_ref(out, node);
+        }
+        InHand::Ambiguous(ids) => {
+            out.u64(3);
+            out.u64(ids.len() as u64);
+            ids.iter().for_each(|id| out.u64(id.bits()));
+        }
+    }
+}
+
+pub(super) fn read(input: &mut Reader<'_>) -> Result<Tasks, CanonicalError> {
+    read_tasks(input).ok_or(CanonicalError::Malformed { what: "memory of tasks" })
+}
+
+fn read_tasks(input: &mut Reader<'_>) -> Option<Tasks> {
+    let count = input.u64()?;
+    let mut tasks = Tasks::new();
+    for _ in 0..count {
+        let task_id = input.text()?.to_owned();
+        let announced = input.option(|input| read_task(input, &task_id))?;
+        tasks.insert(task_id, TaskMemory { announced, in_hand: read_in_hand(input)? });
+    }
+    Some(tasks)
+}
+
+fn read_task(input: &mut Reader<'_>, task_id: &str) -> Option<(u64, Task)> {
+    let order = input.u64()?;
+    let instruction = input.text()?.to_owned();
+    let mut node = || input.option(read_ref);
+    let (object, source_room, target_room, support) = (node()?, node()?, node()?, node()?);
+    let task_id = task_id.to_owned();
+    Some((order, Task { task_id, instruction, object, source_room, target_room, support }))
+}
+
+fn read_ref(input: &mut Reader<'_>) -> Option<NodeRef> {
+    let id = match input.u64()? {
+        0 => None,
+        bits => Some(NodeId::try_from(bits).ok()?),
+    };
+    let label = match input.text()? {
+        "" => None,
+        text => Some(Label::new(text).ok()?),
+    };
+    Some(NodeRef { id, label })
+}
+
+fn read_in_hand(input: &mut Reader<'_>) -> Option<InHand> {
+    let id = |input: &mut Reader<'_>| NodeId::try_from(input.u64()?).ok();
+    Some(match input.u64()? {
+        0 => InHand::Nothing,
+        1 => InHand::Known(id(input)?),
+        2 => InHand::Unknown(read_ref(input)?),
+        3 => {
+            let count = input.u64()?;
+            InHand::Ambiguous((0..count).map(|_| id(input)).collect::<Option<_>>()?)
+        }
+        _ => return None,
+    })
+}

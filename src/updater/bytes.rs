@@ -1,0 +1,70 @@
+//! The bytes of an updater: what a checkpoint holds.
+
+use super::{Config, Updater};
+use crate::bytes::{Reader, Writer};
+use crate::change::World;
+use crate::graph::CanonicalError;
+use crate::modality::action::ActionDetector;
+use crate::time::Stamp;
+
+/// Version of the bytes. A checkpoint of another version is ignored, for it is only a cache.
+const STATE_VERSION: u64 = 1;
+
+/// Why bytes are not those of an updater.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RestoreError {
+    /// Written by another version of the program.
+    #[error("checkpoint bytes have version {found}, this program reads version 1")]
+    Version {
+        /// The version found.
+        found: u64,
+    },
+    /// The bytes do not hold what they should.
+    #[error(transparent)]
+    Malformed(#[from] CanonicalError),
+}
+
+impl Updater {
+    /// Everything but the configuration, as bytes. Equal states have equal bytes.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut out = Writer::default();
+        out.u64(STATE_VERSION);
+        out.u64(self.order);
+        out.u64(self.changes);
+        out.u64(self.at.nanos());
+        self.world.write_bytes(&mut out);
+        self.action.write_bytes(&mut out);
+        out.0
+    }
+
+    /// The updater with these bytes, going on under `config`.
+    pub fn from_bytes(config: Config, bytes: &[u8]) -> Result<Self, RestoreError> {
+        let mut input = Reader(bytes);
+        let (order, changes, at) = read_counters(&mut input)?;
+        let world = World::read_bytes(&mut input)?;
+        let action = ActionDetector::read_bytes(&mut input)?;
+        if !input.0.is_empty() {
+            let what = "bytes follow the last memory";
+            return Err(CanonicalError::Malformed { what }.into());
+        }
+        Ok(Self { config, world, action, order, changes, at })
+    }
+
+    /// Only the world of these bytes; the memory of detectors is not needed to replay.
+    pub fn world_from_bytes(bytes: &[u8]) -> Result<World, RestoreError> {
+        let mut input = Reader(bytes);
+        read_counters(&mut input)?;
+        Ok(World::read_bytes(&mut input)?)
+    }
+}
+
+fn read_counters(input: &mut Reader<'_>) -> Result<(u64, u64, Stamp), RestoreError> {
+    let malformed = CanonicalError::Malformed { what: "counters" };
+    match input.u64() {
+        Some(STATE_VERSION) => {}
+        Some(found) => return Err(RestoreError::Version { found }),
+        None => return Err(malformed.into()),
+    }
+    let counters = (|| Some((input.u64()?, input.u64()?, Stamp::from_nanos(input.u64()?))))();
+    counters.ok_or(malformed.into())
+}

@@ -1,0 +1,107 @@
+//! [`Config`]: every threshold of the detectors, recorded with the log.
+
+use serde::{Deserialize, Serialize};
+
+use crate::change::PlanConfig;
+use crate::geometry::{GeometryError, Size};
+
+/// Every number that detectors and planner go by. It is written into each recording, and
+/// reprocess takes it from there unless told otherwise.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Config {
+    /// λ of objects that are added, in 1/s. The default is a half-life of 12 hours:
+    /// λ = ln 3 / 43,200 s, since 2 / (1 + e^{λt}) = 1/2 where e^{λt} = 3.
+    pub added_decay_rate: f64,
+    /// Box of objects that are added without a measured one: (w, h, d) in metres.
+    pub added_size_m: [f64; 3],
+    #[serde(skip)]
+    added_size: CheckedSize,
+}
+
+/// `added_size_m`, once it was seen to be a box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct CheckedSize(Size);
+
+/// Why a configuration was refused.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// Not the JSON of a configuration.
+    #[error("the configuration is not valid: {0}")]
+    Json(#[from] serde_json::Error),
+    /// A box that is none.
+    #[error("added_size_m: {0}")]
+    Size(#[from] GeometryError),
+    /// A rate that is none.
+    #[error("added_decay_rate is {0}: it must be a number ≥ 0, in 1/s")]
+    DecayRate(f64),
+}
+
+/// ln 3 / 12 h.
+const HALF_LIFE_12_H: f64 = 2.5430840015465504e-05;
+
+impl Default for CheckedSize {
+    fn default() -> Self {
+        Self(Size::from_micrometres([200_000; 3]).expect("20 cm is a size"))
+    }
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        let added_size = CheckedSize::default();
+        let added_size_m = added_size.0.metres();
+        Self { added_decay_rate: HALF_LIFE_12_H, added_size_m, added_size }
+    }
+}
+
+impl Config {
+    /// Reads a configuration; what it leaves out has the default value.
+    pub fn from_json(text: &str) -> Result<Self, ConfigError> {
+        let mut config: Self = serde_json::from_str(text)?;
+        let [w, h, d] = config.added_size_m;
+        config.added_size = CheckedSize(Size::new(w, h, d)?);
+        if !(config.added_decay_rate.is_finite() && config.added_decay_rate >= 0.0) {
+            return Err(ConfigError::DecayRate(config.added_decay_rate));
+        }
+        Ok(config)
+    }
+
+    /// The configuration as one line of JSON with every value.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("numbers and texts always have a JSON form")
+    }
+
+    pub(super) fn plan(&self) -> PlanConfig {
+        PlanConfig { decay_rate: self.added_decay_rate, size: self.added_size.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_configuration_reads_back_from_its_json() {
+        let config = Config { added_decay_rate: 0.25, ..Config::default() };
+        assert_eq!(Config::from_json(&config.to_json()).unwrap(), config);
+        assert_eq!(Config::from_json("{}").unwrap(), Config::default());
+    }
+
+    #[test]
+    fn what_is_no_configuration_is_refused_with_the_field() {
+        for (json, field) in [
+            (r#"{"added_decay_rate": -1}"#, "added_decay_rate"),
+            (r#"{"added_size_m": [0, 1, 1]}"#, "added_size_m"),
+            (r#"{"speed": 1}"#, "speed"),
+        ] {
+            let error = Config::from_json(json).unwrap_err().to_string();
+            assert!(error.contains(field), "{error}");
+        }
+    }
+
+    #[test]
+    fn the_default_half_life_is_twelve_hours() {
+        let p = 2.0 / (1.0 + libm::exp(HALF_LIFE_12_H * 43_200.0));
+        assert!((p - 0.5).abs() < 1e-12, "{p}");
+    }
+}
