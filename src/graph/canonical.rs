@@ -36,6 +36,24 @@ impl fmt::Display for StateHash {
     }
 }
 
+impl std::str::FromStr for StateHash {
+    type Err = CanonicalError;
+
+    fn from_str(text: &str) -> Result<Self, CanonicalError> {
+        let digits = text.as_bytes();
+        let malformed = CanonicalError::Malformed { what: "a hash has 64 hexadecimal digits" };
+        if digits.len() != 64 || !digits.iter().all(u8::is_ascii_hexdigit) {
+            return Err(malformed);
+        }
+        let mut bytes = [0; 32];
+        for (byte, pair) in bytes.iter_mut().zip(text.as_bytes().chunks_exact(2)) {
+            let pair = std::str::from_utf8(pair).map_err(|_| malformed.clone())?;
+            *byte = u8::from_str_radix(pair, 16).map_err(|_| malformed.clone())?;
+        }
+        Ok(Self(bytes))
+    }
+}
+
 impl fmt::Debug for StateHash {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)

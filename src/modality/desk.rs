@@ -59,8 +59,11 @@ impl<'a> Desk<'a> {
         }
     }
 
-    /// Records `claim` as rejected.
-    pub fn reject(&mut self, claim: Claim, rejection: Rejection) {
+    /// Records `claim` as rejected, with the label of what it names by id alone.
+    pub fn reject(&mut self, mut claim: Claim, rejection: Rejection) {
+        if let NodeRef { id: Some(id), label: None } = claim.object {
+            claim.object = node_ref(self.world, id);
+        }
         self.record(claim, rejection.into());
     }
 

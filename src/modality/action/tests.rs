@@ -125,7 +125,17 @@ fn what_is_picked_and_placed_keeps_its_id_and_changes_room() {
         status(Status::Picked),
         status(Status::Placed),
         status(Status::Done),
-    ]), @"");
+    ]), @"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 moved mug O4: kitchen R1 -> bedroom R2 on -: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R2 (5, 0, 1) topological
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -133,7 +143,17 @@ fn what_is_in_a_bowl_goes_with_it() {
     assert_snapshot!(story(vec![
         naming(Status::Picked, NodeRef::id(id("O2")), None),
         naming(Status::Placed, NodeRef::id(id("O2")), Some(NodeRef::id(id("O6")))),
-    ]), @"");
+    ]), @"
+    c1 removed bowl O2: kitchen R1 -> - on table O1: applied
+    c2 moved bowl O2: kitchen R1 -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R2 on O6 (5, 1, 0.4) topological
+    O3 cereal R2 on O2 (5, 1, 0.5) topological
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -141,7 +161,18 @@ fn picking_an_unknown_thing_is_rejected_and_placing_it_adds_it() {
     assert_snapshot!(story(vec![
         naming(Status::Picked, label("banana"), None),
         naming(Status::Placed, label("banana"), Some(label("bed"))),
-    ]), @"");
+    ]), @"
+    c1 removed banana: - -> - on -: rejected [unknown_object] no such object known: banana
+    c2 added banana O7: - -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    O7 banana R2 on O6 (5, 1, 0.45) topological
+    ");
 }
 
 #[test]
@@ -149,14 +180,33 @@ fn picking_one_of_several_is_rejected_and_so_is_placing_it() {
     assert_snapshot!(story(vec![
         naming(Status::Picked, label("mug"), None),
         naming(Status::Placed, label("mug"), Some(label("bed"))),
-    ]), @"");
+    ]), @r#"
+    c1 removed mug: - -> - on -: rejected [ambiguous] mug is ambiguous: O4, O5
+    c2 moved mug: - -> - on bed: rejected [placed_ambiguous] task "t" placed what it picked, but which object that was is ambiguous: O4, O5
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    "#);
 }
 
 #[test]
 fn placing_what_was_never_picked_is_one_move() {
     assert_snapshot!(story(vec![
         naming(Status::Placed, label("bowl"), Some(label("bed"))),
-    ]), @"");
+    ]), @"
+    c1 moved bowl O2: kitchen R1 -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R2 on O6 (5, 1, 0.4) topological
+    O3 cereal R2 on O2 (5, 1, 0.5) topological
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -165,7 +215,17 @@ fn failing_after_the_pick_leaves_it_in_the_gripper() {
         task("mug", "bedroom"),
         status(Status::Picked),
         status(Status::Failed),
-    ]), @"");
+    ]), @r#"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 moved mug O4: - -> bedroom on -: rejected [failed_holding] task "t" failed after the pick: mug O4 stays in the gripper
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) held held
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    "#);
 }
 
 #[test]
@@ -178,7 +238,17 @@ fn failing_with_a_pose_puts_it_where_it_fell() {
         task("mug", "bedroom"),
         status(Status::Picked),
         Event::TaskStatus(fell),
-    ]), @"");
+    ]), @"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 moved mug O4: kitchen R1 -> bedroom R2 on -: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R2 (3.5, 0, 0.05) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -187,7 +257,15 @@ fn failing_before_the_pick_changes_nothing() {
         task("mug", "bedroom"),
         status(Status::Started),
         status(Status::Failed),
-    ]), @"");
+    ]), @"
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -196,12 +274,32 @@ fn done_without_placing_leaves_it_in_the_gripper() {
         task("mug", "bedroom"),
         status(Status::Picked),
         status(Status::Done),
-    ]), @"");
+    ]), @r#"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 moved mug O4: - -> bedroom on -: rejected [done_holding] task "t" is done but never placed mug O4: it stays in the gripper
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) held held
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    "#);
 }
 
 #[test]
 fn a_status_of_no_known_task_that_names_nothing_is_rejected() {
-    assert_snapshot!(story(vec![status(Status::Picked), status(Status::Placed)]), @"");
+    assert_snapshot!(story(vec![status(Status::Picked), status(Status::Placed)]), @r#"
+    c1 removed something: - -> - on -: rejected [unknown_task] no task "t" was announced, and the status names no object
+    c2 moved something: - -> - on -: rejected [unknown_task] no task "t" was announced, and the status names no object
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    "#);
 }
 
 #[test]
@@ -210,7 +308,18 @@ fn picking_twice_is_rejected_and_placing_still_works() {
         naming(Status::Picked, NodeRef::id(id("O4")), None),
         naming(Status::Picked, NodeRef::id(id("O4")), None),
         naming(Status::Placed, NodeRef::id(id("O4")), Some(label("bed"))),
-    ]), @"");
+    ]), @"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 removed mug O4: - -> - on -: rejected [already_held] mug O4 is already in the gripper
+    c3 moved mug O4: kitchen R1 -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R2 on O6 (5, 1, 0.4) topological
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -220,7 +329,16 @@ fn the_reported_pose_tells_two_mugs_apart() {
         pose: Some(Pose::at([4.9, 0.0, 0.1]).unwrap()),
         ..TaskStatus::bare("t", Status::Picked)
     };
-    assert_snapshot!(story(vec![Event::TaskStatus(picked)]), @"");
+    assert_snapshot!(story(vec![Event::TaskStatus(picked)]), @"
+    c1 removed mug O5: bedroom R2 -> - on -: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) held held
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -231,12 +349,30 @@ fn an_unknown_support_costs_only_the_support() {
         support: Some(label("wardrobe")),
         ..TaskStatus::bare("t", Status::Placed)
     };
-    assert_snapshot!(story(vec![Event::TaskStatus(placed)]), @"");
+    assert_snapshot!(story(vec![Event::TaskStatus(placed)]), @"
+    c1 moved mug O4: kitchen R1 -> bedroom R2 on -: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R2 (5, 0, 1) topological
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
 fn placing_nowhere_is_rejected() {
-    assert_snapshot!(story(vec![naming(Status::Placed, NodeRef::id(id("O4")), None)]), @"");
+    assert_snapshot!(story(vec![naming(Status::Placed, NodeRef::id(id("O4")), None)]), @"
+    c1 moved mug O4: - -> - on -: rejected [no_target] neither a room, a support nor a pose says where O4 is now
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }
 
 #[test]
@@ -245,5 +381,15 @@ fn a_thing_cannot_be_placed_on_itself_or_on_what_it_carries() {
     assert_snapshot!(story(vec![
         naming(Status::Placed, bowl(), Some(NodeRef::id(id("O3")))),
         naming(Status::Placed, bowl(), Some(bowl())),
-    ]), @"");
+    ]), @"
+    c1 moved bowl O2: - -> - on O3: rejected [refused] the graph refuses: O2 cannot rest on O3: that rests on O2
+    c2 moved bowl O2: - -> - on O2: rejected [refused] the graph refuses: O2 cannot rest on O2: that rests on O2
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
 }

@@ -1,0 +1,165 @@
+//! The metadata records of a recording: [`Meta`] at the start, [`Seal`] at the end.
+
+use std::collections::BTreeMap;
+
+use super::chain::{GENESIS, Link};
+use crate::graph::StateHash;
+use crate::updater::{Config, ConfigError};
+
+/// Version of the recording format.
+pub const FORMAT_VERSION: u32 = 1;
+
+const META: &str = "scenefold";
+const SEAL: &str = "scenefold.end";
+
+/// What a segment says of itself at the start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Meta {
+    /// Version of the recording format.
+    pub format_version: u32,
+    /// Program that wrote it, with its version.
+    pub program: String,
+    /// Every threshold it went by.
+    pub config: Config,
+    /// Number of its first event.
+    pub first_order: u64,
+    /// Link of the chain before its first event.
+    pub chain: Link,
+    /// Event numbers after which events are known to be missing, if it was recovered from a
+    /// damaged recording.
+    pub gaps: Vec<u64>,
+}
+
+/// What a segment says of itself at the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seal {
+    /// Number of its last event.
+    pub events: u64,
+    /// Number of its last change.
+    pub changes: u64,
+    /// Link of the chain after its last event.
+    pub chain: Link,
+    /// Hash of the graph after its last event.
+    pub state_hash: StateHash,
+}
+
+/// Why the metadata of a recording is not understood.
+#[derive(Debug, thiserror::Error)]
+pub enum MetaError {
+    /// A recording of a later format.
+    #[error("the recording has format version {found}, this program reads up to 1: update it")]
+    Version {
+        /// The version found.
+        found: u32,
+    },
+    /// A field that is missing or has no sensible value.
+    #[error("metadata record {record:?} has no valid field {field:?}")]
+    Field {
+        /// Which record.
+        record: &'static str,
+        /// Which field.
+        field: &'static str,
+    },
+    /// A configuration of another program.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+}
+
+type Map = BTreeMap<String, String>;
+
+impl Meta {
+    /// What a new recording says of itself.
+    pub fn new(config: Config, first_order: u64, chain: Link) -> Self {
+        let program = concat!("scenefold ", env!("CARGO_PKG_VERSION")).to_owned();
+        let (format_version, gaps) = (FORMAT_VERSION, Vec::new());
+        Self { format_version, program, config, first_order, chain, gaps }
+    }
+
+    pub(super) fn record(&self) -> (&'static str, Map) {
+        let gaps: Vec<String> = self.gaps.iter().map(u64::to_string).collect();
+        let mut map = map([
+            ("format_version", self.format_version.to_string()),
+            ("program", self.program.clone()),
+            ("config", self.config.to_json()),
+            ("first_order", self.first_order.to_string()),
+            ("chain", self.chain.to_string()),
+        ]);
+        if !gaps.is_empty() {
+            map.insert("gaps".to_owned(), gaps.join(","));
+        }
+        (META, map)
+    }
+
+    /// Finds and reads it among the metadata of a file; `None` if there is none.
+    pub(super) fn find(records: &[mcap::records::Metadata]) -> Result<Option<Self>, MetaError> {
+        let Some(map) = find(records, META) else { return Ok(None) };
+        let format_version = field(map, META, "format_version")?;
+        if format_version > FORMAT_VERSION {
+            return Err(MetaError::Version { found: format_version });
+        }
+        let missing = |field| MetaError::Field { record: META, field };
+        let config = map.get("config").ok_or(missing("config"))?;
+        let gaps = map.get("gaps").map_or(Ok(vec![]), |gaps| {
+            gaps.split(',').map(|gap| gap.parse().map_err(|_| missing("gaps"))).collect()
+        })?;
+        Ok(Some(Self {
+            format_version,
+            program: map.get("program").cloned().unwrap_or_default(),
+            config: Config::from_json(config)?,
+            first_order: field(map, META, "first_order")?,
+            chain: hash(map, "chain").ok_or(missing("chain"))?,
+            gaps,
+        }))
+    }
+}
+
+impl Default for Meta {
+    fn default() -> Self {
+        Self::new(Config::default(), 1, GENESIS)
+    }
+}
+
+impl Seal {
+    pub(super) fn record(&self) -> (&'static str, Map) {
+        let map = map([
+            ("events", self.events.to_string()),
+            ("changes", self.changes.to_string()),
+            ("chain", self.chain.to_string()),
+            ("state_hash", self.state_hash.to_string()),
+        ]);
+        (SEAL, map)
+    }
+
+    /// Finds and reads it among the metadata of a file; `None` if there is none.
+    pub(super) fn find(records: &[mcap::records::Metadata]) -> Result<Option<Self>, MetaError> {
+        let Some(map) = find(records, SEAL) else { return Ok(None) };
+        let missing = |field| MetaError::Field { record: SEAL, field };
+        Ok(Some(Self {
+            events: field(map, SEAL, "events")?,
+            changes: field(map, SEAL, "changes")?,
+            chain: hash(map, "chain").ok_or(missing("chain"))?,
+            state_hash: hash(map, "state_hash").ok_or(missing("state_hash"))?,
+        }))
+    }
+}
+
+fn map<const N: usize>(fields: [(&str, String); N]) -> Map {
+    fields.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+}
+
+fn find<'a>(records: &'a [mcap::records::Metadata], name: &str) -> Option<&'a Map> {
+    records.iter().rev().find(|record| record.name == name).map(|record| &record.metadata)
+}
+
+fn field<T: std::str::FromStr>(
+    map: &Map,
+    record: &'static str,
+    field: &'static str,
+) -> Result<T, MetaError> {
+    let parsed = map.get(field).and_then(|text| text.parse().ok());
+    parsed.ok_or(MetaError::Field { record, field })
+}
+
+fn hash(map: &Map, field: &str) -> Option<StateHash> {
+    map.get(field)?.parse().ok()
+}
