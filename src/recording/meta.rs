@@ -37,6 +37,8 @@ pub struct Seal {
     pub events: u64,
     /// Number of its last change.
     pub changes: u64,
+    /// Number of primitives in this segment.
+    pub primitives: u64,
     /// Link of the chain after its last event.
     pub chain: Link,
     /// Hash of the graph after its last event.
@@ -124,6 +126,7 @@ impl Seal {
         let map = map([
             ("events", self.events.to_string()),
             ("changes", self.changes.to_string()),
+            ("primitives", self.primitives.to_string()),
             ("chain", self.chain.to_string()),
             ("state_hash", self.state_hash.to_string()),
         ]);
@@ -137,6 +140,7 @@ impl Seal {
         Ok(Some(Self {
             events: field(map, SEAL, "events")?,
             changes: field(map, SEAL, "changes")?,
+            primitives: field(map, SEAL, "primitives")?,
             chain: hash(map, "chain").ok_or(missing("chain"))?,
             state_hash: hash(map, "state_hash").ok_or(missing("state_hash"))?,
         }))

@@ -25,6 +25,7 @@ mod point;
 mod recorder;
 mod recover;
 mod reprocess;
+mod resume;
 mod segment;
 mod sink;
 mod state;
@@ -32,6 +33,8 @@ mod summary;
 mod verify;
 
 pub use chain::{Chain, Link};
+pub use events::{Walk, WalkError};
+pub use point::{Point, PointError};
 pub use checkpoint::Checkpoint;
 pub use meta::{FORMAT_VERSION, Meta, Seal};
 pub use open::{OpenError, Recording};

@@ -1,0 +1,226 @@
+//! [`Recording`]: one opened for reading, whole or damaged.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, OnceLock};
+
+use super::meta::{Meta, MetaError, Seal};
+use super::segment::segment_files;
+use super::sink::CLASS_KEY;
+use crate::container::{ChunkEntry, Damage, FileSource, Limits, LogError, LogFile, Source};
+use crate::event::{Role, Topic};
+use crate::time::Stamp;
+
+/// A recording opened for reading. Can be shared between threads.
+///
+/// Damage is no error: everything intact is read, and what is not is told by
+/// [`Recording::trouble`].
+pub struct Recording {
+    pub(super) path: PathBuf,
+    pub(super) segments: Vec<Segment>,
+    trouble: Mutex<BTreeSet<String>>,
+}
+
+/// One file of a recording.
+pub(super) struct Segment {
+    pub path: PathBuf,
+    pub log: LogFile,
+    pub meta: Option<Meta>,
+    pub seal: Option<Seal>,
+    pub topics: BTreeMap<u16, Topic>,
+    /// Channels of events: not sensor data, not checkpoints, not projections.
+    pub events: BTreeSet<u16>,
+    /// Channels of sensor data.
+    pub sensors: BTreeSet<u16>,
+    pub checkpoints: OnceLock<Vec<super::state::CheckpointRef>>,
+}
+
+/// Why a recording cannot be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// The file system refused.
+    #[error("{error}\n  {}", .path.display())]
+    Io {
+        /// Which file.
+        path: PathBuf,
+        /// What it said.
+        error: io::Error,
+    },
+    /// No MCAP file, or one that cannot be read at all.
+    #[error("{error}\n  {}", .path.display())]
+    Log {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        error: LogError,
+    },
+    /// Its metadata is not understood.
+    #[error("{error}\n  {}", .path.display())]
+    Meta {
+        /// Which file.
+        path: PathBuf,
+        /// Why.
+        error: MetaError,
+    },
+    /// A folder without segments.
+    #[error("the folder holds no .mcap file\n  {}", .path.display())]
+    NoSegments {
+        /// Which folder.
+        path: PathBuf,
+    },
+}
+
+impl Recording {
+    /// Opens a file, or a folder of segments.
+    pub fn open(path: &Path) -> Result<Self, OpenError> {
+        Self::open_with(path, LogFile::open)
+    }
+
+    /// Opens it without trusting any index: every record header is walked over.
+    pub fn scan(path: &Path) -> Result<Self, OpenError> {
+        Self::open_with(path, LogFile::scan)
+    }
+
+    /// Opens a recording in memory.
+    pub fn from_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, OpenError> {
+        let path = PathBuf::from(name);
+        let segment = Segment::open(&path, Arc::new(bytes), LogFile::open)?;
+        Ok(Self::over(path, vec![segment]))
+    }
+
+    fn open_with(path: &Path, open: OpenLog) -> Result<Self, OpenError> {
+        let failed = |error| OpenError::Io { path: path.to_owned(), error };
+        let files = match path.is_dir() {
+            true => segment_files(path).map_err(failed)?,
+            false => vec![path.to_owned()],
+        };
+        if files.is_empty() {
+            return Err(OpenError::NoSegments { path: path.to_owned() });
+        }
+        let segments = files.iter().map(|file| {
+            let source = FileSource::open(file)
+                .map_err(|error| OpenError::Io { path: file.clone(), error })?;
+            Segment::open(file, Arc::new(source), open)
+        });
+        Ok(Self::over(path.to_owned(), segments.collect::<Result<_, _>>()?))
+    }
+
+    fn over(path: PathBuf, segments: Vec<Segment>) -> Self {
+        let recording = Self { path, segments, trouble: Mutex::default() };
+        for segment in &recording.segments {
+            for damage in segment.log.damage().items() {
+                recording.report(segment, damage);
+            }
+        }
+        recording
+    }
+
+    /// The path it was opened at.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// What is known to be wrong with it so far, a line each. Damage inside chunks is met only
+    /// when they are read; [`super::verify`] reads them all.
+    pub fn trouble(&self) -> Vec<String> {
+        self.lock().iter().cloned().collect()
+    }
+
+    /// What the recording says of itself, if it is one of ours.
+    pub fn meta(&self) -> Option<&Meta> {
+        self.segments.first()?.meta.as_ref()
+    }
+
+    /// What the last segment says of its end, if it was ended.
+    pub fn seal(&self) -> Option<&Seal> {
+        self.segments.last()?.seal.as_ref()
+    }
+
+    /// Log time of the first event; `None` if there is none.
+    pub fn start(&self) -> Option<Stamp> {
+        self.event_chunks().map(|entry| entry.start_time).min().map(Stamp::from_nanos)
+    }
+
+    /// Log time of the last event; `None` if there is none.
+    pub fn end(&self) -> Option<Stamp> {
+        self.event_chunks().map(|entry| entry.end_time).max().map(Stamp::from_nanos)
+    }
+
+    /// Whether the files number their events themselves, as ours do; in others an event's
+    /// number is its place in the order of the log.
+    pub(super) fn is_numbered(&self) -> bool {
+        self.segments.iter().all(|segment| segment.meta.is_some())
+    }
+
+    pub(super) fn report(&self, segment: &Segment, what: impl std::fmt::Display) {
+        let file = segment.path.file_name().unwrap_or_default().to_string_lossy();
+        // A hostile file can be wrong in any number of ways; the first ones are enough.
+        let mut trouble = self.lock();
+        if trouble.len() < 1000 {
+            trouble.insert(format!("{file}: {what}"));
+        }
+    }
+
+    pub(super) fn report_damage(&self, segment: &Segment, damage: &Damage) {
+        self.report(segment, damage);
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, BTreeSet<String>> {
+        self.trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    fn event_chunks(&self) -> impl Iterator<Item = &ChunkEntry> {
+        self.segments.iter().flat_map(|segment| {
+            segment.log.chunks().iter().filter(|entry| {
+                segment.events.iter().chain(&segment.sensors).any(|id| entry.may_hold(*id))
+            })
+        })
+    }
+}
+
+type OpenLog = fn(Arc<dyn Source>, Limits) -> Result<LogFile, LogError>;
+
+impl Segment {
+    fn open(path: &Path, source: Arc<dyn Source>, open: OpenLog) -> Result<Self, OpenError> {
+        let failed = |error| OpenError::Log { path: path.to_owned(), error };
+        let log = open(source, Limits::default()).map_err(failed)?;
+        let meta_error = |error| OpenError::Meta { path: path.to_owned(), error };
+        let meta = Meta::find(log.metadata()).map_err(meta_error)?;
+        let seal = Seal::find(log.metadata()).map_err(meta_error)?;
+        let mut segment = Self {
+            path: path.to_owned(),
+            log,
+            meta,
+            seal,
+            topics: BTreeMap::new(),
+            events: BTreeSet::new(),
+            sensors: BTreeSet::new(),
+            checkpoints: OnceLock::new(),
+        };
+        segment.sort_channels();
+        Ok(segment)
+    }
+
+    fn sort_channels(&mut self) {
+        for (id, channel) in self.log.channels() {
+            let topic = Topic::named(&channel.topic);
+            let sensor = channel.metadata.get(CLASS_KEY).is_some_and(|class| class == "sensor");
+            match topic.role() {
+                Role::Cache | Role::Projection => {}
+                _ if sensor => {
+                    self.sensors.insert(*id);
+                }
+                _ => {
+                    self.events.insert(*id);
+                }
+            }
+            self.topics.insert(*id, topic);
+        }
+    }
+
+    /// The channels of a topic; files of other programs may have several.
+    pub fn channels_of(&self, topic: &Topic) -> impl Iterator<Item = u16> {
+        self.topics.iter().filter(move |(_, other)| *other == topic).map(|(id, _)| *id)
+    }
+}

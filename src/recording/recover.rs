@@ -1,0 +1,299 @@
+//! Saving what is intact of a damaged recording into a clean one.
+
+use std::collections::BTreeMap;
+use std::fs::{File, OpenOptions};
+use std::path::Path;
+
+use super::chain::{Chain, GENESIS};
+use super::checkpoint::Checkpoint;
+use super::events::{RawEvent, decode};
+use super::meta::{Meta, Seal};
+use super::open::{Recording, Segment};
+use super::recorder::RecordError;
+use super::sink::{CLASS_KEY, class_of};
+use crate::change::World;
+use crate::container::{
+    ChannelHandle, ChannelSpec, ChunkClass, LogOptions, LogWriter, MessageFilter, RawMessage,
+    SchemaSpec,
+};
+use crate::event::{Event, Topic};
+use crate::wire;
+
+/// A stretch of events that are not in the recording any more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LostEvents {
+    /// Number of the first one.
+    pub first: u64,
+    /// Number of the last one; `None` if that is not known, at the end of a recording.
+    pub last: Option<u64>,
+}
+
+/// What came of recovering.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recovered {
+    /// How many messages were saved.
+    pub messages: u64,
+    /// Stretches of events that are missing.
+    pub events: Vec<LostEvents>,
+    /// What was damaged, a line each, with file and bytes.
+    pub damage: Vec<String>,
+}
+
+/// Copies every intact message of the recording at `path` to a new file `out`, in order, and
+/// ends it properly. Messages keep their times, numbers and bytes; checkpoints are given the
+/// chain of the new file. `progress` is told the messages copied so far.
+pub fn recover(
+    path: &Path,
+    out: &Path,
+    progress: &mut dyn FnMut(u64),
+) -> Result<Recovered, RecordError> {
+    let recording = Recording::scan(path)?;
+    let io = |error| RecordError::Io { path: out.to_owned(), error };
+    let file = OpenOptions::new().write(true).create_new(true).open(out).map_err(io)?;
+    let mut copy = Copy::new(&recording, file)?;
+    for segment in &recording.segments {
+        copy.segment(segment, progress)?;
+    }
+    let recovered = copy.finish()?;
+    File::open(out).and_then(|file| file.sync_all()).map_err(io)?;
+    Ok(recovered)
+}
+
+struct Copy<'r> {
+    recording: &'r Recording,
+    writer: LogWriter<File>,
+    meta: Option<Meta>,
+    channels: BTreeMap<(String, u16), ChannelHandle>,
+    chain: Chain,
+    world: World,
+    order: u64,
+    changes: u64,
+    primitives: u64,
+    messages: u64,
+    lost: Vec<LostEvents>,
+}
+
+impl<'r> Copy<'r> {
+    fn new(recording: &'r Recording, file: File) -> Result<Self, RecordError> {
+        let mut writer = LogWriter::new(file, LogOptions::default())?;
+        let meta = recording.segments.iter().find_map(|segment| segment.meta.clone());
+        if let Some(meta) = &meta {
+            let (name, map) = meta.record();
+            writer.write_metadata(name, map)?;
+        }
+        let first = meta.as_ref().map_or(1, |meta| meta.first_order);
+        let chain = Chain::after(meta.as_ref().map_or(GENESIS, |meta| meta.chain));
+        Ok(Self {
+            recording,
+            writer,
+            meta,
+            channels: BTreeMap::new(),
+            chain,
+            world: World::default(),
+            order: first - 1,
+            changes: 0,
+            primitives: 0,
+            messages: 0,
+            lost: Vec::new(),
+        })
+    }
+
+    fn segment(
+        &mut self,
+        segment: &Segment,
+        progress: &mut dyn FnMut(u64),
+    ) -> Result<(), RecordError> {
+        for record in segment.log.metadata() {
+            // Metadata of other programs is kept; our own is written anew.
+            if !record.name.starts_with("scenefold") {
+                self.writer.write_metadata(&record.name, record.metadata.clone())?;
+            }
+        }
+        let mut cursor = segment.log.messages(MessageFilter::default());
+        loop {
+            match cursor.next_message() {
+                Ok(Some(message)) => self.message(segment, &message)?,
+                Ok(None) => break,
+                Err(error) => {
+                    self.recording.report(segment, error);
+                    break;
+                }
+            }
+            if self.messages.is_multiple_of(4096) {
+                progress(self.messages);
+            }
+        }
+        for damage in cursor.damage().items() {
+            self.recording.report_damage(segment, damage);
+        }
+        Ok(())
+    }
+
+    fn message(&mut self, segment: &Segment, message: &RawMessage<'_>) -> Result<(), RecordError> {
+        let Some(topic) = segment.topics.get(&message.channel) else { return Ok(()) };
+        let numbered = self.meta.is_some();
+        if *topic == Topic::Checkpoint && numbered {
+            return self.checkpoint(segment, message);
+        }
+        let is_event =
+            segment.events.contains(&message.channel) || segment.sensors.contains(&message.channel);
+        if is_event && numbered && !self.event(segment, topic, message) {
+            return Ok(());
+        }
+        let handle = self.channel(segment, message)?;
+        let (sequence, at) = (message.sequence, message.log_time);
+        self.writer.write(handle, sequence, at, message.publish_time, message.data)?;
+        self.messages += 1;
+        Ok(())
+    }
+
+    /// Follows the fold and the chain; `false` if the event is no use and is left out.
+    fn event(&mut self, segment: &Segment, topic: &Topic, message: &RawMessage<'_>) -> bool {
+        let order = u64::from(message.sequence);
+        let raw = RawEvent {
+            order,
+            topic,
+            channel: message.channel,
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            data: message.data,
+        };
+        let logged = match decode(segment, raw) {
+            Ok(logged) if order > self.order => logged,
+            Ok(_) => {
+                let what = format_args!("event #{order} stands after #{}: left out", self.order);
+                self.recording.report(segment, what);
+                return false;
+            }
+            Err(error) => {
+                self.recording.report(segment, format_args!("event #{order}: {error}: left out"));
+                return false;
+            }
+        };
+        if order > self.order + 1 {
+            self.lost.push(LostEvents { first: self.order + 1, last: Some(order - 1) });
+        }
+        self.order = order;
+        if segment.events.contains(&message.channel) {
+            let (at, published) = (message.log_time, message.publish_time);
+            self.chain.add(&topic.name(), order, at, published, message.data);
+        }
+        match logged.event {
+            Event::InitialGraph(graph) => self.world = World::from_graph(graph),
+            Event::Change(record) => self.changes = record.seq,
+            Event::Transaction(transaction) => {
+                self.primitives += transaction.steps.len() as u64;
+                // After a gap a transaction may not apply; the next checkpoint mends that.
+                let _ = transaction.apply(&mut self.world);
+            }
+            _ => {}
+        }
+        true
+    }
+
+    fn checkpoint(
+        &mut self,
+        segment: &Segment,
+        message: &RawMessage<'_>,
+    ) -> Result<(), RecordError> {
+        let decoded = wire::CheckpointMessage::decode(message.data).map_err(|e| e.to_string());
+        let usable = decoded
+            .and_then(|message| Checkpoint::from_message(message).map_err(|e| e.to_string()))
+            .and_then(|found| Ok((found.world().map_err(|e| e.to_string())?, found)));
+        let (world, checkpoint) = match usable {
+            Ok(usable) => usable,
+            Err(why) => {
+                self.recording.report(segment, format_args!("a checkpoint is left out: {why}"));
+                return Ok(());
+            }
+        };
+        if checkpoint.order > self.order {
+            // What led up to it is lost, but not the state it led to.
+            self.lost.push(LostEvents { first: self.order + 1, last: Some(checkpoint.order) });
+            self.order = checkpoint.order;
+            self.changes = checkpoint.changes;
+        }
+        if !self.lost.is_empty() {
+            self.world = world;
+        }
+        let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode()?;
+        let handle = self.channel(segment, message)?;
+        let (sequence, at) = (message.sequence, message.log_time);
+        self.writer.write(handle, sequence, at, message.publish_time, &payload)?;
+        self.messages += 1;
+        Ok(())
+    }
+
+    fn channel(
+        &mut self,
+        segment: &Segment,
+        message: &RawMessage<'_>,
+    ) -> Result<ChannelHandle, RecordError> {
+        let key = (segment.path.to_string_lossy().into_owned(), message.channel);
+        if let Some(handle) = self.channels.get(&key) {
+            return Ok(*handle);
+        }
+        let channel = segment.log.channels().get(&message.channel).ok_or(RecordError::NoSchema)?;
+        let schema = segment.log.schemas().get(&channel.schema_id);
+        let spec = ChannelSpec {
+            topic: channel.topic.clone(),
+            message_encoding: channel.message_encoding.clone(),
+            metadata: channel.metadata.clone(),
+            schema: schema.map(|schema| SchemaSpec {
+                name: schema.name.clone(),
+                encoding: schema.encoding.clone(),
+                data: schema.data.to_vec(),
+            }),
+            class: class(segment, channel, message),
+        };
+        let handle = self.writer.register(spec)?;
+        self.channels.insert(key, handle);
+        Ok(handle)
+    }
+
+    fn finish(mut self) -> Result<Recovered, RecordError> {
+        self.writer.flush()?;
+        if let Some(meta) = &mut self.meta {
+            let sealed = self.recording.seal().map(|seal| seal.events);
+            if sealed.is_none_or(|events| events > self.order) {
+                self.lost.push(LostEvents { first: self.order + 1, last: sealed });
+            }
+            let found = self.lost.iter().filter(|lost| lost.first <= self.order);
+            meta.gaps.extend(found.map(|lost| lost.first - 1));
+            meta.gaps.sort_unstable();
+            meta.gaps.dedup();
+            if !meta.gaps.is_empty() {
+                let (name, map) = meta.record();
+                self.writer.write_metadata(name, map)?;
+            }
+            let seal = Seal {
+                events: self.order,
+                changes: self.changes,
+                primitives: self.primitives,
+                chain: self.chain.link(),
+                state_hash: self.world.graph().hash(),
+            };
+            let (name, map) = seal.record();
+            self.writer.write_metadata(name, map)?;
+        }
+        self.writer.finish()?;
+        let damage = self.recording.trouble();
+        Ok(Recovered { messages: self.messages, events: self.lost, damage })
+    }
+}
+
+/// The class the channel was written with; for channels of other programs, the fitting one.
+fn class(
+    segment: &Segment,
+    channel: &crate::container::Channel,
+    message: &RawMessage<'_>,
+) -> ChunkClass {
+    let schema = segment.log.schemas().get(&channel.schema_id);
+    let by_kind = class_of(schema.map_or("", |schema| &schema.name), message.data.len());
+    match channel.metadata.get(CLASS_KEY).map(String::as_str) {
+        Some("event") => ChunkClass::Event,
+        Some("checkpoint") => ChunkClass::Checkpoint,
+        Some("sensor") if by_kind == ChunkClass::Event => ChunkClass::Sensor,
+        _ => by_kind,
+    }
+}

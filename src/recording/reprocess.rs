@@ -1,0 +1,227 @@
+//! Running the detectors again over the recorded inputs, and comparing what they derive.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use super::events::{Walk, WalkError};
+use super::open::Recording;
+use crate::change::{Cause, ChangeRecord, EvidenceRef};
+use crate::event::{Event, Interpretation, Logged};
+use crate::time::Stamp;
+use crate::updater::{Config, UpdateError, Updater};
+
+/// An input from which something else follows now than was recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// Number of the input.
+    pub order: u64,
+    /// Its log time.
+    pub at: Stamp,
+    /// What was recorded.
+    pub recorded: Vec<Event>,
+    /// What follows now, with event and change numbers as they were recorded where the two agree.
+    pub now: Vec<Event>,
+}
+
+/// What came of running the detectors again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reprocessed {
+    /// How many inputs there were.
+    pub inputs: u64,
+    /// How many of them give something else now.
+    pub different: u64,
+    /// The first of those.
+    pub differences: Vec<Difference>,
+    /// The state after the last input.
+    pub updater: Updater,
+}
+
+/// Differences that are kept; the others are only counted.
+const KEPT: usize = 1000;
+
+/// Why reprocessing ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum ReprocessError<E> {
+    /// The recording cannot be walked.
+    #[error(transparent)]
+    Walk(#[from] WalkError),
+    /// A recorded input is refused.
+    #[error("event #{order}: {error}")]
+    Update {
+        /// Number of the input.
+        order: u64,
+        /// Why.
+        error: UpdateError,
+    },
+    /// The caller's sink failed.
+    #[error(transparent)]
+    Sink(E),
+}
+
+/// Feeds the recorded inputs to a new updater under `config`, compares what it derives with what
+/// was recorded, and hands each update to `sink`, for example to record it anew.
+pub fn reprocess<E>(
+    recording: &Recording,
+    config: Config,
+    sink: &mut dyn FnMut(&Logged, &[Logged]) -> Result<(), E>,
+) -> Result<Reprocessed, ReprocessError<E>> {
+    let mut again = Again::new(Updater::new(config));
+    let mut failure = None;
+    recording.visit_events(Walk::Everything, (1, u64::MAX), &mut |logged| {
+        match again.take(logged, sink) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failure = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    })?;
+    match failure {
+        Some(error) => Err(error),
+        None => Ok(again.finish()),
+    }
+}
+
+/// The comparison on its way through a log.
+pub(super) struct Again {
+    updater: Updater,
+    /// The last input with what it derives now, and what was recorded of it so far.
+    current: Option<(Logged, Vec<Logged>)>,
+    recorded: Vec<Event>,
+    /// Event numbers now → as recorded, where they differ; and the same of changes.
+    orders: Renumber,
+    inputs: u64,
+    different: u64,
+    differences: Vec<Difference>,
+}
+
+/// Numbers now and as recorded, where inputs stand elsewhere now.
+#[derive(Default)]
+struct Renumber {
+    orders: BTreeMap<u64, u64>,
+}
+
+impl Again {
+    pub fn new(updater: Updater) -> Self {
+        Self {
+            updater,
+            current: None,
+            recorded: Vec::new(),
+            orders: Renumber::default(),
+            inputs: 0,
+            different: 0,
+            differences: Vec::new(),
+        }
+    }
+
+    /// Takes the next recorded event.
+    pub fn take<E>(
+        &mut self,
+        logged: &Logged,
+        sink: &mut dyn FnMut(&Logged, &[Logged]) -> Result<(), E>,
+    ) -> Result<(), ReprocessError<E>> {
+        if !logged.event.is_input() {
+            self.recorded.push(logged.event.clone());
+            return Ok(());
+        }
+        self.compare();
+        let order = logged.order;
+        let updated = self.updater.update(logged.published, logged.event.clone());
+        let events = updated.map_err(|error| ReprocessError::Update { order, error })?;
+        self.inputs += 1;
+        if events[0].order != order {
+            self.orders.orders.insert(events[0].order, order);
+        }
+        sink(logged, &events).map_err(ReprocessError::Sink)?;
+        self.current = Some((logged.clone(), events));
+        Ok(())
+    }
+
+    /// What the last input derives but the log does not hold, if it holds nothing of it.
+    pub fn missing_tail(&self) -> Vec<Logged> {
+        let Some((_, events)) = &self.current else { return Vec::new() };
+        if self.recorded.is_empty() { events[1..].to_vec() } else { Vec::new() }
+    }
+
+    /// Leaves the last input out of the comparison.
+    pub fn forget_last(&mut self) {
+        self.current = None;
+    }
+
+    pub fn finish(mut self) -> Reprocessed {
+        self.compare();
+        let Self { updater, inputs, different, differences, .. } = self;
+        Reprocessed { inputs, different, differences, updater }
+    }
+
+    pub fn updater(&self) -> &Updater {
+        &self.updater
+    }
+
+    pub fn different(&self) -> u64 {
+        self.different
+    }
+
+    fn compare(&mut self) {
+        let recorded = std::mem::take(&mut self.recorded);
+        let Some((input, events)) = self.current.take() else { return };
+        let now: Vec<Event> =
+            events[1..].iter().map(|logged| self.orders.as_recorded(&logged.event)).collect();
+        if same(&recorded, &now) {
+            return;
+        }
+        self.different += 1;
+        if self.differences.len() < KEPT {
+            let (order, at) = (input.order, input.at);
+            self.differences.push(Difference { order, at, recorded, now });
+        }
+    }
+}
+
+impl Renumber {
+    /// `event` with its references as the recording numbers them.
+    fn as_recorded(&self, event: &Event) -> Event {
+        let mut event = event.clone();
+        match &mut event {
+            Event::Change(record) => record.claim.evidence.iter_mut().for_each(|e| self.fix(e)),
+            Event::Interpretation(Interpretation { of, .. }) => self.fix(of),
+            Event::Transaction(transaction) => {
+                for step in &mut transaction.steps {
+                    if let Cause::Evidence(evidence) = &mut step.cause {
+                        self.fix(evidence);
+                    }
+                }
+            }
+            _ => {}
+        }
+        event
+    }
+
+    fn fix(&self, evidence: &mut EvidenceRef) {
+        if let Some(order) = self.orders.get(&evidence.order) {
+            evidence.order = *order;
+        }
+    }
+}
+
+/// Equal but for the numbers of changes, which shift where one more or less was made before.
+fn same(recorded: &[Event], now: &[Event]) -> bool {
+    recorded.len() == now.len()
+        && recorded.iter().zip(now).all(|(recorded, now)| match (recorded, now) {
+            (Event::Change(a), Event::Change(b)) => {
+                *a == ChangeRecord { seq: a.seq, ..b.clone() }
+            }
+            (Event::Transaction(a), Event::Transaction(b)) => {
+                a.at == b.at
+                    && a.steps.len() == b.steps.len()
+                    && a.steps.iter().zip(&b.steps).all(|(a, b)| {
+                        let by_change = matches!(
+                            (&a.cause, &b.cause),
+                            (Cause::Change(_), Cause::Change(_))
+                        );
+                        a.primitive == b.primitive && (by_change || a.cause == b.cause)
+                    })
+            }
+            (a, b) => a == b,
+        })
+}
