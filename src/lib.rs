@@ -7,3 +7,8 @@ pub mod change;
 pub mod event;
 pub mod modality;
 pub mod updater;
+pub mod document;
+pub mod history;
+pub mod wire;
+pub mod container;
+pub mod recording;
