@@ -5,5 +5,7 @@ mod bytes;
 pub mod graph;
 pub mod change;
 pub mod event;
+pub mod document;
 pub mod modality;
 pub mod updater;
+pub mod history;
