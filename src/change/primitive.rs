@@ -97,8 +97,8 @@ pub enum Undo {
     RestoreAll(Vec<(NodeId, Object)>),
     /// A region was put in.
     RegionAdded(NodeId),
-    /// A region was taken out.
-    RegionRemoved(NodeId, Region),
+    /// A region was taken out, and the access it gave.
+    RegionRemoved(NodeId, Region, Vec<NodeId>),
 }
 
 impl Primitive {
@@ -171,7 +171,10 @@ impl Undo {
                 access.into_iter().for_each(|other| world.graph.disconnect(id, other));
                 world.graph.remove_region(id).map(drop)
             }
-            Self::RegionRemoved(id, region) => world.graph.insert_region(id, region),
+            Self::RegionRemoved(id, region, access) => world
+                .graph
+                .insert_region(id, region)
+                .and_then(|()| access.iter().try_for_each(|to| world.graph.connect(id, *to))),
         };
         undone.expect("what was just done can be undone");
     }
@@ -237,12 +240,7 @@ fn use_id(world: &mut World, id: NodeId) {
 
 fn remove(world: &mut World, id: NodeId, to: Departure, at: Stamp) -> Result<Undo, WorldError> {
     if id.layer() != Layer::Object {
-        let access: Vec<NodeId> = world.graph.access_from(id).collect();
-        if !access.is_empty() && to == Departure::Gone {
-            return Err(GraphError::StillContains { id, count: access.len() }.into());
-        }
-        let region = world.graph.remove_region(id)?;
-        return Ok(Undo::RegionRemoved(id, region));
+        return remove_region(world, id);
     }
     let before = object(world, id)?.clone();
     match to {
@@ -257,6 +255,20 @@ fn remove(world: &mut World, id: NodeId, to: Departure, at: Stamp) -> Result<Und
         }
     }
     Ok(Undo::Restore(id, before))
+}
+
+/// Takes a region out, with the access it gave; nothing may belong to it.
+fn remove_region(world: &mut World, id: NodeId) -> Result<Undo, WorldError> {
+    let access: Vec<NodeId> = world.graph.access_from(id).collect();
+    access.iter().for_each(|other| world.graph.disconnect(id, *other));
+    match world.graph.remove_region(id) {
+        Ok(region) => Ok(Undo::RegionRemoved(id, region, access)),
+        Err(refused) => {
+            let reconnected = access.iter().try_for_each(|other| world.graph.connect(id, *other));
+            reconnected.expect("what was just disconnected can be connected");
+            Err(refused.into())
+        }
+    }
 }
 
 fn move_object(world: &mut World, id: NodeId, to: &Placement) -> Result<Undo, WorldError> {

@@ -1,0 +1,223 @@
+//! [`EventDocument`]: any event of a log. Payloads of sensors are counted, not printed.
+
+use serde::Serialize;
+
+use super::{ChangeDocument, EvidenceDocument, PoseDocument, PrimitiveDocument, RefDocument};
+use crate::change::{Cause, Step};
+use crate::event::{Event, Interpretation, Logged, SensorMessage, Task, TaskStatus};
+
+/// An event in its place in the log.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EventDocument {
+    /// Event number, from 1.
+    pub order: u64,
+    /// Log time.
+    pub at: String,
+    /// Its topic.
+    pub topic: String,
+    /// What it is: a field `event` tells the kind, the others are of that kind.
+    #[serde(flatten)]
+    pub content: ContentDocument,
+}
+
+/// What an event is, told apart by its field `event`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+pub enum ContentDocument {
+    /// The graph at the start.
+    InitialGraph {
+        /// How many rooms it has.
+        rooms: usize,
+        /// How many objects it has.
+        objects: usize,
+        /// Its hash.
+        hash: String,
+    },
+    /// Somebody said something.
+    Utterance {
+        /// Who.
+        speaker: String,
+        /// The words.
+        text: String,
+    },
+    /// What the robot is to do.
+    Task {
+        /// The task's name.
+        task_id: String,
+        /// The words it was given in.
+        instruction: String,
+        /// What is to be picked.
+        object: Option<RefDocument>,
+        /// Where it is.
+        source_room: Option<RefDocument>,
+        /// Where it is to go.
+        target_room: Option<RefDocument>,
+        /// What it is to be put on or in.
+        support: Option<RefDocument>,
+    },
+    /// How far a task is.
+    TaskStatus {
+        /// The task's name.
+        task_id: String,
+        /// `started`, `picked`, `placed`, `failed` or `done`.
+        status: &'static str,
+        /// What was picked or placed.
+        object: Option<RefDocument>,
+        /// The room it was picked or placed in.
+        room: Option<RefDocument>,
+        /// What it was picked from, or placed on or in.
+        support: Option<RefDocument>,
+        /// Its pose at that moment, if known.
+        pose: Option<PoseDocument>,
+    },
+    /// Time passes.
+    Tick,
+    /// A message that is passed through.
+    Sensor {
+        /// Name of its schema; empty if it has none.
+        schema: String,
+        /// Encoding of the message.
+        encoding: String,
+        /// Length of the payload.
+        bytes: usize,
+    },
+    /// What was understood of a task or a sentence.
+    Interpretation {
+        /// The message that was interpreted.
+        of: EvidenceDocument,
+        /// The object meant.
+        object: Option<RefDocument>,
+        /// Where it is.
+        source_room: Option<RefDocument>,
+        /// Where it is to go.
+        target_room: Option<RefDocument>,
+        /// What it is to be put on or in.
+        support: Option<RefDocument>,
+        /// How it was understood, or why not.
+        note: String,
+    },
+    /// A change record.
+    Change {
+        /// The record.
+        change: Box<ChangeDocument>,
+    },
+    /// What the fold eats.
+    Transaction {
+        /// What it does, in order.
+        steps: Vec<StepDocument>,
+    },
+}
+
+/// A primitive and its cause.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StepDocument {
+    /// Why.
+    pub cause: CauseDocument,
+    /// What.
+    #[serde(flatten)]
+    pub primitive: PrimitiveDocument,
+}
+
+/// What caused a primitive: `{"change":7}` or `{"evidence":{…}}`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CauseDocument {
+    /// The change with this number.
+    Change(u64),
+    /// A message that is no change.
+    Evidence(EvidenceDocument),
+}
+
+impl EventDocument {
+    /// The document of an event.
+    pub fn of(logged: &Logged) -> Self {
+        Self {
+            order: logged.order,
+            at: logged.at.to_string(),
+            topic: logged.event.topic().name().into_owned(),
+            content: ContentDocument::of(&logged.event),
+        }
+    }
+}
+
+impl CauseDocument {
+    /// The document of a cause.
+    pub fn of(cause: &Cause) -> Self {
+        match cause {
+            Cause::Change(seq) => Self::Change(*seq),
+            Cause::Evidence(reference) => Self::Evidence(EvidenceDocument::of(reference)),
+        }
+    }
+}
+
+impl ContentDocument {
+    fn of(event: &Event) -> Self {
+        match event {
+            Event::InitialGraph(graph) => Self::InitialGraph {
+                rooms: graph.rooms().count(),
+                objects: graph.object_count(),
+                hash: graph.hash().to_string(),
+            },
+            Event::Utterance(said) => {
+                Self::Utterance { speaker: said.speaker.clone(), text: said.text.clone() }
+            }
+            Event::Task(task) => Self::task(task),
+            Event::TaskStatus(status) => Self::task_status(status),
+            Event::Tick => Self::Tick,
+            Event::Sensor(message) => Self::sensor(message),
+            Event::Interpretation(understood) => Self::interpretation(understood),
+            Event::Change(record) => {
+                Self::Change { change: Box::new(ChangeDocument::of(record)) }
+            }
+            Event::Transaction(transaction) => {
+                Self::Transaction { steps: transaction.steps.iter().map(step).collect() }
+            }
+        }
+    }
+
+    fn task(task: &Task) -> Self {
+        Self::Task {
+            task_id: task.task_id.clone(),
+            instruction: task.instruction.clone(),
+            object: RefDocument::maybe(task.object.as_ref()),
+            source_room: RefDocument::maybe(task.source_room.as_ref()),
+            target_room: RefDocument::maybe(task.target_room.as_ref()),
+            support: RefDocument::maybe(task.support.as_ref()),
+        }
+    }
+
+    fn task_status(status: &TaskStatus) -> Self {
+        Self::TaskStatus {
+            task_id: status.task_id.clone(),
+            status: status.status.as_str(),
+            object: RefDocument::maybe(status.object.as_ref()),
+            room: RefDocument::maybe(status.room.as_ref()),
+            support: RefDocument::maybe(status.support.as_ref()),
+            pose: status.pose.as_ref().map(PoseDocument::of),
+        }
+    }
+
+    fn sensor(message: &SensorMessage) -> Self {
+        Self::Sensor {
+            schema: message.schema_name.to_string(),
+            encoding: message.message_encoding.to_string(),
+            bytes: message.data.len(),
+        }
+    }
+
+    fn interpretation(understood: &Interpretation) -> Self {
+        Self::Interpretation {
+            of: EvidenceDocument::of(&understood.of),
+            object: RefDocument::maybe(understood.object.as_ref()),
+            source_room: RefDocument::maybe(understood.source_room.as_ref()),
+            target_room: RefDocument::maybe(understood.target_room.as_ref()),
+            support: RefDocument::maybe(understood.support.as_ref()),
+            note: understood.note.clone(),
+        }
+    }
+}
+
+fn step(step: &Step) -> StepDocument {
+    let cause = CauseDocument::of(&step.cause);
+    StepDocument { cause, primitive: PrimitiveDocument::of(&step.primitive) }
+}

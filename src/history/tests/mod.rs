@@ -1,0 +1,5 @@
+//! Tests of this module, on small worlds.
+
+mod arbitrary;
+mod diff;
+mod fixture;
