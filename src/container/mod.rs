@@ -29,6 +29,7 @@ mod learn;
 mod limits;
 mod open_chunk;
 mod options;
+mod peek;
 mod resync;
 mod scan;
 mod source;
@@ -53,6 +54,4 @@ pub use open_chunk::ChunkClass;
 pub use options::{ChannelSpec, LogOptions, SchemaSpec, WriteError};
 pub use source::{FileSource, Source};
 pub use wire::Schema;
-pub use writer::{
-    ChannelHandle, ChannelSpec, LogOptions, LogWriter, Progress, SchemaSpec, WriteError,
-};
+pub use writer::{ChannelHandle, LogWriter, Progress};

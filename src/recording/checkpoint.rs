@@ -1,18 +1,16 @@
 //! [`Checkpoint`]: the state of the updater after some event, as a message.
 
-use std::io;
-
 use super::chain::{GENESIS, Link};
 use crate::change::World;
 use crate::graph::StateHash;
 use crate::time::Stamp;
 use crate::updater::{Config, RestoreError, Updater};
-use crate::wire::CheckpointMessage;
+use crate::wire::{
+    CheckpointHead, CheckpointMessage, WireError, decode_checkpoint, encode_checkpoint,
+};
 
 /// Version of the message; one of another version is ignored.
 const VERSION: u32 = 1;
-/// Largest state that is unpacked, so that a hostile file cannot fill the memory.
-const STATE_MAX: u64 = 256 << 20;
 
 /// A full state, verified by its hashes before it is used.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,9 +37,9 @@ pub enum CheckpointError {
     /// Written by another version of the program.
     #[error("it has version {0}")]
     Version(u32),
-    /// Its state cannot be unpacked.
-    #[error("its state cannot be unpacked: {0}")]
-    Unpack(#[from] io::Error),
+    /// The message is none.
+    #[error(transparent)]
+    Wire(#[from] WireError),
     /// Its state is not the one it was written with.
     #[error("its state does not have the hash it states")]
     Hash,
@@ -65,25 +63,36 @@ impl Checkpoint {
         }
     }
 
-    pub(super) fn encode(&self) -> io::Result<Vec<u8>> {
-        Ok(wire_message(self)?.encode())
+    pub(super) fn encode(&self) -> Vec<u8> {
+        let head = CheckpointHead {
+            version: VERSION,
+            order: self.order,
+            changes: self.changes,
+            at: self.at,
+            chain: self.chain.0,
+            state_hash: self.state_hash.0,
+            memory_hash: self.memory_hash.0,
+            state_size: self.state.len() as u64,
+        };
+        encode_checkpoint(&head, &self.state)
     }
 
-    pub(super) fn from_message(message: CheckpointMessage) -> Result<Self, CheckpointError> {
-        if message.version != VERSION {
-            return Err(CheckpointError::Version(message.version));
+    /// Reads a payload and verifies that the state is the one that was written.
+    pub(super) fn decode(payload: &[u8]) -> Result<Self, CheckpointError> {
+        let CheckpointMessage { head, state } = decode_checkpoint(payload)?;
+        if head.version != VERSION {
+            return Err(CheckpointError::Version(head.version));
         }
-        let state = unpack(&message)?;
-        if StateHash::of(&state).0 != message.memory_hash {
+        if StateHash::of(&state).0 != head.memory_hash {
             return Err(CheckpointError::Hash);
         }
         Ok(Self {
-            order: message.order,
-            changes: message.changes,
-            at: message.at,
-            chain: StateHash(message.chain),
-            state_hash: StateHash(message.state_hash),
-            memory_hash: StateHash(message.memory_hash),
+            order: head.order,
+            changes: head.changes,
+            at: head.at,
+            chain: StateHash(head.chain),
+            state_hash: StateHash(head.state_hash),
+            memory_hash: StateHash(head.memory_hash),
             state,
         })
     }
@@ -97,32 +106,4 @@ impl Checkpoint {
     pub fn updater(&self, config: Config) -> Result<Updater, CheckpointError> {
         Ok(Updater::from_bytes(config, &self.state)?)
     }
-}
-
-fn wire_message(checkpoint: &Checkpoint) -> io::Result<CheckpointMessage> {
-    Ok(CheckpointMessage {
-        version: VERSION,
-        order: checkpoint.order,
-        changes: checkpoint.changes,
-        at: checkpoint.at,
-        chain: checkpoint.chain.0,
-        state_hash: checkpoint.state_hash.0,
-        memory_hash: checkpoint.memory_hash.0,
-        state_size: checkpoint.state.len() as u64,
-        state_zstd: zstd::bulk::compress(&checkpoint.state, 1)?,
-    })
-}
-
-/// Never more than the message says it is, and never more than the limit.
-fn unpack(message: &CheckpointMessage) -> Result<Vec<u8>, CheckpointError> {
-    let too_large = || io::Error::other("it claims to be larger than 256 MiB");
-    let size = message.state_size;
-    if size > STATE_MAX {
-        return Err(too_large().into());
-    }
-    // Zstandard expands at most some thousandfold: a small message cannot claim a large state.
-    if size > (message.state_zstd.len() as u64).saturating_mul(32 << 10) {
-        return Err(too_large().into());
-    }
-    Ok(zstd::bulk::decompress(&message.state_zstd, size as usize)?)
 }

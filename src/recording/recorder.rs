@@ -60,9 +60,6 @@ pub enum RecordError {
     /// The container refused.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// A checkpoint could not be packed.
-    #[error("a checkpoint could not be packed: {0}")]
-    Pack(#[from] io::Error),
     /// The input is none.
     #[error(transparent)]
     Update(#[from] UpdateError),

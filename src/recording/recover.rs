@@ -17,7 +17,6 @@ use crate::container::{
     SchemaSpec,
 };
 use crate::event::{Event, Topic};
-use crate::wire;
 
 /// A stretch of events that are not in the recording any more.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,10 +195,8 @@ impl<'r> Copy<'r> {
         segment: &Segment,
         message: &RawMessage<'_>,
     ) -> Result<(), RecordError> {
-        let decoded = wire::CheckpointMessage::decode(message.data).map_err(|e| e.to_string());
-        let usable = decoded
-            .and_then(|message| Checkpoint::from_message(message).map_err(|e| e.to_string()))
-            .and_then(|found| Ok((found.world().map_err(|e| e.to_string())?, found)));
+        let usable =
+            Checkpoint::decode(message.data).and_then(|found| Ok((found.world()?, found)));
         let (world, checkpoint) = match usable {
             Ok(usable) => usable,
             Err(why) => {
@@ -216,7 +213,7 @@ impl<'r> Copy<'r> {
         if !self.lost.is_empty() {
             self.world = world;
         }
-        let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode()?;
+        let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode();
         let handle = self.channel(segment, message)?;
         let (sequence, at) = (message.sequence, message.log_time);
         self.writer.write(handle, sequence, at, message.publish_time, &payload)?;

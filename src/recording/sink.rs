@@ -136,7 +136,7 @@ impl Sink {
     pub fn checkpoint(&mut self, mut checkpoint: Checkpoint) -> Result<(), RecordError> {
         self.flush()?;
         checkpoint.chain = self.chain.close();
-        let payload = checkpoint.encode()?;
+        let payload = checkpoint.encode();
         let handle = self.own_channel(&Topic::Checkpoint)?.0;
         let at = checkpoint.at.nanos();
         let sequence = u32::try_from(checkpoint.order).unwrap_or(u32::MAX);
@@ -147,12 +147,6 @@ impl Sink {
     /// Number of the last event that is as safe as the policy asks for.
     pub fn acknowledged(&self) -> u64 {
         self.acknowledged
-    }
-
-    /// Bytes of event chunks and of checkpoint chunks in the file so far.
-    pub fn stored_bytes(&self) -> (u64, u64) {
-        let bytes = |class| self.writer.stored_bytes(class);
-        (bytes(ChunkClass::Event), bytes(ChunkClass::Checkpoint))
     }
 
     /// Hands all events to the operating system and, unless the policy is

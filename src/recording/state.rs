@@ -1,6 +1,6 @@
 //! [`State`]: what the robot believed at some point, by folding the recorded primitives.
 
-use super::checkpoint::{Checkpoint, CheckpointError};
+use super::checkpoint::Checkpoint;
 use super::events::WalkError;
 use super::open::{Recording, Segment};
 use super::parallel::{Item, for_each_chunk};
@@ -94,8 +94,7 @@ impl Recording {
             |channel: u16| segment.topics.get(&channel) == Some(&Topic::Checkpoint);
         let message = buffer.messages().find(|message| is_checkpoint(message.channel));
         let message = message.ok_or("its chunk holds none")?;
-        let decoded = wire::CheckpointMessage::decode(message.data).map_err(|e| e.to_string())?;
-        Checkpoint::from_message(decoded).map_err(|error: CheckpointError| error.to_string())
+        Checkpoint::decode(message.data).map_err(|error| error.to_string())
     }
 }
 
@@ -107,10 +106,8 @@ fn list_checkpoints(n: usize, segment: &Segment) -> Vec<CheckpointRef> {
         entry.channels.is_some() && channels.iter().any(|channel| entry.may_hold(*channel))
     };
     let peek = |entry: &ChunkEntry| {
-        let mut bytes = vec![0; PEEK.min(entry.length as usize)];
-        segment.log.source().read_at(entry.offset, &mut bytes).ok()?;
-        let payload = crate::container::first_payload(&bytes)?;
-        let checkpoint = wire::peek_checkpoint(payload).ok()?;
+        let payload = channels.iter().find_map(|id| segment.log.peek(entry, *id, PEEK))?;
+        let checkpoint = wire::peek_checkpoint(&payload).ok()?;
         Some(CheckpointRef {
             segment: n,
             offset: entry.offset,
