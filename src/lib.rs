@@ -6,3 +6,6 @@ pub mod graph;
 pub mod change;
 pub mod event;
 pub mod wire;
+#[cfg(test)]
+#[allow(dead_code)]
+mod testing;
