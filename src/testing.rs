@@ -35,7 +35,7 @@ pub fn stamp() -> BoxedStrategy<Stamp> {
         // About 2026, where recordings are.
         (1_767_000_000_000_000_000..1_798_000_000_000_000_000_u64).prop_map(Stamp::from_nanos),
     ]
-        .boxed()
+    .boxed()
 }
 
 /// Any pose within some kilometres: upright, turned about z, or turned anyhow.
@@ -49,8 +49,7 @@ pub fn pose() -> BoxedStrategy<Pose> {
         prop::array::uniform3(-10.0..10.0_f64),
         prop::array::uniform3(-1.0e7..1.0e7_f64)
     ];
-    (place, turn).prop_map(|(at, wxyz)| Pose::new(at, wxyz).unwrap_or(Pose::IDENTITY))
-        .boxed()
+    (place, turn).prop_map(|(at, wxyz)| Pose::new(at, wxyz).unwrap_or(Pose::IDENTITY)).boxed()
 }
 
 prop_compose! {
@@ -74,15 +73,15 @@ pub fn node() -> impl Strategy<Value = NodeId> {
 
 /// A node as the planner leaves it, or as someone claims it.
 pub fn node_ref() -> BoxedStrategy<NodeRef> {
-    (option::of(node()), option::of(label())).prop_map(|(id, label)| NodeRef { id, label })
-        .boxed()
+    (option::of(node()), option::of(label())).prop_map(|(id, label)| NodeRef { id, label }).boxed()
 }
 
 /// A reference to any message.
 pub fn evidence_ref() -> BoxedStrategy<EvidenceRef> {
     let own = select(&Topic::OWN[..]).prop_map(|topic| topic.name());
     let other = "/[a-z_]{1,10}(/[a-z_]{1,10})?".prop_map(Cow::Owned);
-    (prop_oneof![own, other], 1..u64::MAX).prop_map(|(topic, order)| EvidenceRef { topic, order })
+    (prop_oneof![own, other], 1..u64::MAX)
+        .prop_map(|(topic, order)| EvidenceRef { topic, order })
         .boxed()
 }
 
@@ -133,12 +132,13 @@ fn drawing() -> BoxedStrategy<Drawing> {
 /// Any graph: regions of all layers with parents or without, accesses, objects that rest on
 /// others (also on ones with larger ids) and objects in the gripper.
 pub fn graph() -> BoxedStrategy<SceneGraph> {
-    drawing().prop_map(|drawing| {
-        let mut graph = SceneGraph::new();
-        draw_regions(&mut graph, &drawing);
-        draw_objects(&mut graph, drawing.objects);
-        graph
-    })
+    drawing()
+        .prop_map(|drawing| {
+            let mut graph = SceneGraph::new();
+            draw_regions(&mut graph, &drawing);
+            draw_objects(&mut graph, drawing.objects);
+            graph
+        })
         .boxed()
 }
 
@@ -265,8 +265,7 @@ fn add() -> BoxedStrategy<Primitive> {
             let node = Node::Region(Region { parent, ..region }, access);
             Primitive::Add { id, node }
         });
-    prop_oneof![of_object, of_region]
-        .boxed()
+    prop_oneof![of_object, of_region].boxed()
 }
 
 fn access() -> impl Strategy<Value = Vec<NodeId>> {
@@ -284,16 +283,14 @@ pub fn primitive() -> BoxedStrategy<Primitive> {
     prop_oneof![
         find(),
         add(),
-        (node(), departure(), stamp())
-            .prop_map(|(id, to, at)| Primitive::Remove { id, to, at }),
+        (node(), departure(), stamp()).prop_map(|(id, to, at)| Primitive::Remove { id, to, at }),
         (object(), placement()).prop_map(|(id, to)| Primitive::Move { id, to }),
-        (stamp(), vec(sighting(), 0..4))
-            .prop_map(|(at, seen)| Primitive::Observe { at, seen }),
+        (stamp(), vec(sighting(), 0..4)).prop_map(|(at, seen)| Primitive::Observe { at, seen }),
         (object(), decay_rate(), ".{0,12}").prop_map(|(id, decay_rate, origin)| {
             Primitive::SetDecay { id, decay_rate, origin }
         }),
     ]
-        .boxed()
+    .boxed()
 }
 
 fn cause() -> BoxedStrategy<Cause> {
@@ -303,19 +300,20 @@ fn cause() -> BoxedStrategy<Cause> {
         any::<u64>().prop_map(Cause::Change),
         evidence_ref().prop_map(Cause::Evidence),
     ]
-        .boxed()
+    .boxed()
 }
 
 /// Any transaction; some of its times are its own.
 pub fn transaction() -> BoxedStrategy<Transaction> {
     let step = (cause(), primitive(), any::<bool>());
-    (stamp(), vec(step, 0..6)).prop_map(|(at, steps)| {
-        let steps = steps.into_iter().map(|(cause, primitive, now)| {
-            let primitive = if now { at_time(primitive, at) } else { primitive };
-            Step { cause, primitive }
-        });
-        Transaction { at, steps: steps.collect() }
-    })
+    (stamp(), vec(step, 0..6))
+        .prop_map(|(at, steps)| {
+            let steps = steps.into_iter().map(|(cause, primitive, now)| {
+                let primitive = if now { at_time(primitive, at) } else { primitive };
+                Step { cause, primitive }
+            });
+            Transaction { at, steps: steps.collect() }
+        })
         .boxed()
 }
 

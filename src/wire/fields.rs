@@ -234,7 +234,10 @@ impl<'a> Field<'a> {
     }
 
     /// The numbers of a repeated field, packed or one at a time.
-    pub fn numbers(&self, mut each: impl FnMut(u64) -> Result<(), WireError>) -> Result<(), WireError> {
+    pub fn numbers(
+        &self,
+        mut each: impl FnMut(u64) -> Result<(), WireError>,
+    ) -> Result<(), WireError> {
         match self.value {
             Value::Varint(value) => each(value),
             Value::Bytes(bytes) => {

@@ -184,7 +184,11 @@ fn read_find(mut fields: Fields<'_>, budget: &mut Budget) -> Result<Primitive, W
     Ok(Primitive::Find { query, room, support, candidates, chosen, reason })
 }
 
-fn read_add(mut fields: Fields<'_>, at: Stamp, budget: &mut Budget) -> Result<Primitive, WireError> {
+fn read_add(
+    mut fields: Fields<'_>,
+    at: Stamp,
+    budget: &mut Budget,
+) -> Result<Primitive, WireError> {
     let (mut id, mut what, mut access) = (first(Layer::Object), None, Vec::new());
     while let Some(field) = fields.next()? {
         match field.number {

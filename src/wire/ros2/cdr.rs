@@ -25,8 +25,7 @@ impl<'a> Reader<'a> {
     fn take(&mut self, field: &'static str, len: u64) -> Result<&'a [u8], CdrError> {
         let rest = self.body.get(self.at..).unwrap_or_default();
         let taken = usize::try_from(len).ok().and_then(|len| rest.get(..len));
-        let short =
-            CdrError::Short { message: self.message, field, needed: len, left: rest.len() };
+        let short = CdrError::Short { message: self.message, field, needed: len, left: rest.len() };
         let taken = taken.ok_or(short)?;
         self.at += taken.len();
         Ok(taken)

@@ -27,7 +27,11 @@ fn damaged(mut payload: Vec<u8>, damage: &[(prop::sample::Index, u8)]) -> Vec<u8
 }
 
 /// What is read of damaged bytes is valid: it is written and read again as the same.
-fn check(event: &Event, at: Stamp, damage: &[(prop::sample::Index, u8)]) -> Result<(), TestCaseError> {
+fn check(
+    event: &Event,
+    at: Stamp,
+    damage: &[(prop::sample::Index, u8)],
+) -> Result<(), TestCaseError> {
     let payload = damaged(encode(event), damage);
     if let Ok(read) = decode(&event.topic(), at, &payload) {
         prop_assert_eq!(decode(&event.topic(), at, &encode(&read)), Ok(read));
