@@ -136,7 +136,7 @@ pub fn graph() -> BoxedStrategy<SceneGraph> {
         .prop_map(|drawing| {
             let mut graph = SceneGraph::new();
             draw_regions(&mut graph, &drawing);
-            draw_objects(&mut graph, drawing.objects);
+            draw_objects(&mut graph, &drawing.objects);
             graph
         })
         .boxed()
@@ -160,11 +160,11 @@ fn draw_regions(graph: &mut SceneGraph, drawing: &Drawing) {
     }
 }
 
-fn draw_objects(graph: &mut SceneGraph, objects: Vec<(u32, Object, u32)>) {
+fn draw_objects(graph: &mut SceneGraph, objects: &[(u32, Object, u32)]) {
     let rooms: Vec<NodeId> = graph.rooms().map(|(id, _)| id).collect();
     let mut next = 0;
     let mut ids = Vec::new();
-    for (step, object, _) in &objects {
+    for (step, object, _) in objects {
         let id = NodeId::new(Layer::Object, next).expect("a small index");
         next += step;
         let room = rooms[object.room.index() as usize % rooms.len()];
@@ -172,7 +172,7 @@ fn draw_objects(graph: &mut SceneGraph, objects: Vec<(u32, Object, u32)>) {
         graph.insert_object(id, object).expect("a new id in a known room");
         ids.push(id);
     }
-    for (id, (_, _, on)) in ids.iter().zip(&objects) {
+    for (id, (_, _, on)) in ids.iter().zip(objects) {
         let support = ids.get(*on as usize % (2 * ids.len())).copied();
         let object = graph.object(*id).expect("it was just inserted");
         let to = Placement { support, ..Placement::of(object) };

@@ -5,6 +5,8 @@
 //! replay. Stricter than protobuf asks: numbers that do not fit their type and groups are
 //! refused. Fields that are not known are skipped, since later versions may add some.
 
+use std::fmt::Display;
+
 use super::WireError;
 
 /// Longest text of a field, in bytes, unless it says otherwise.
@@ -131,10 +133,10 @@ impl<'a> Field<'a> {
     pub fn refuse(
         &self,
         field: &'static str,
-        value: impl ToString,
+        value: impl Display,
         expected: &'static str,
     ) -> WireError {
-        let value: String = value.to_string().chars().take(80).collect();
+        let value: String = format!("{value}").chars().take(80).collect();
         WireError::Value { message: self.message, field, value: value.into(), expected }
     }
 
@@ -175,7 +177,7 @@ impl<'a> Field<'a> {
     #[inline]
     pub fn sint64(&self) -> Result<i64, WireError> {
         let value = self.u64()?;
-        Ok((value >> 1) as i64 ^ -((value & 1) as i64))
+        Ok((value >> 1).cast_signed() ^ -(value & 1).cast_signed())
     }
 
     #[inline]

@@ -107,8 +107,8 @@ impl Budget {
     #[inline]
     fn take(&mut self, field: &'static str) -> Result<(), WireError> {
         let limit = MAX_TRANSACTION_ITEMS;
-        let too_much = WireError::TooMuch { message: "Transaction", field, limit };
-        self.0 = self.0.checked_sub(1).ok_or(too_much)?;
+        let too_much = || WireError::TooMuch { message: "Transaction", field, limit };
+        self.0 = self.0.checked_sub(1).ok_or_else(too_much)?;
         Ok(())
     }
 }

@@ -121,7 +121,9 @@ impl Writer {
     }
 
     pub fn f64s(&mut self, values: &[f64]) {
-        values.iter().for_each(|value| self.number(value.to_le_bytes()));
+        for value in values {
+            self.number(value.to_le_bytes());
+        }
     }
 
     /// How many entries follow.

@@ -236,7 +236,9 @@ pub fn encode_camera_info(info: &CameraInfo<'_>) -> Vec<u8> {
     out.u32(info.binning_x);
     out.u32(info.binning_y);
     let roi = &info.roi;
-    [roi.x_offset, roi.y_offset, roi.height, roi.width].into_iter().for_each(|n| out.u32(n));
+    for n in [roi.x_offset, roi.y_offset, roi.height, roi.width] {
+        out.u32(n);
+    }
     out.u8(u8::from(roi.do_rectify));
     out.finish()
 }

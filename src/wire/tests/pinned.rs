@@ -103,8 +103,8 @@ fn check(expected: &Event, at: Stamp, payload: &str) {
         .map(|pair| std::str::from_utf8(pair).ok().and_then(|hex| u8::from_str_radix(hex, 16).ok()))
         .collect::<Option<_>>()
         .expect("hexadecimal digits");
-    let now: String = encode(expected).iter().map(|byte| format!("{byte:02x}")).collect();
-    assert_eq!(decode(&expected.topic(), at, &bytes).as_ref(), Ok(expected), "now: {now}");
+    let now = encode(expected);
+    assert_eq!(decode(&expected.topic(), at, &bytes).as_ref(), Ok(expected), "now: {now:02x?}");
 }
 
 #[test]

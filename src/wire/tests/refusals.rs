@@ -211,6 +211,7 @@ fn record() -> proto::ChangeRecord {
 }
 
 #[track_caller]
+#[allow(clippy::needless_pass_by_value)] // so that the cases fit on a line
 fn record_refused(record: proto::ChangeRecord, expected: &str) {
     refused(&Topic::Change, &record, expected);
 }
