@@ -21,7 +21,7 @@ use crate::time::Stamp;
 
 prop_compose! {
     /// Any label of the shape that labels mostly have, and some in other scripts.
-    pub fn label()(text in "[a-z]{1,8}( [a-z]{1,6})?|[\\PC&&[^ ]]{1,5}") -> Label {
+    pub fn label()(text in "[a-z]{1,8}( [a-z]{1,6})?|[\\p{L}\\p{N}]{1,5}") -> Label {
         Label::new(&text).expect("not empty, short, without control characters")
     }
 }
