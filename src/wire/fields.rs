@@ -11,6 +11,9 @@ use super::WireError;
 
 /// Longest text of a field, in bytes, unless it says otherwise.
 pub(super) const MAX_TEXT: usize = 64 * 1024;
+/// Longest text that is derived from others: it may quote the longest input there is, with every
+/// character escaped, and must be readable all the same.
+pub(super) const MAX_DERIVED_TEXT: usize = 8 << 20;
 
 /// Walks over the fields of one message.
 #[derive(Clone, Debug)]
@@ -222,6 +225,10 @@ impl<'a> Field<'a> {
 
     pub fn text(&self, field: &'static str) -> Result<&'a str, WireError> {
         self.long_text(field, MAX_TEXT)
+    }
+
+    pub fn derived_text(&self, field: &'static str) -> Result<&'a str, WireError> {
+        self.long_text(field, MAX_DERIVED_TEXT)
     }
 
     pub fn long_text(&self, field: &'static str, limit: usize) -> Result<&'a str, WireError> {

@@ -129,7 +129,7 @@ pub(super) fn read_interpretation(payload: &[u8]) -> Result<Interpretation, Wire
             3 => field.once(&mut source_room, read_node_ref(&field)?)?,
             4 => field.once(&mut target_room, read_node_ref(&field)?)?,
             5 => field.once(&mut support, read_node_ref(&field)?)?,
-            6 => note = field.text("note")?,
+            6 => note = field.derived_text("note")?,
             _ => {}
         }
     }

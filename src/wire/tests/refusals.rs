@@ -137,6 +137,14 @@ fn a_high_pile_is_read_quickly_whichever_way_it_is_numbered() {
     }
 }
 
+#[test]
+fn a_reason_may_quote_the_longest_input() {
+    let reason = "\\u{7f}".repeat(1 << 20);
+    let find = proto::step::Primitive::Find(proto::Find { reason, ..Default::default() });
+    let payload = proto::Transaction { steps: vec![step(find)] }.encode_to_vec();
+    assert!(decode_transaction(Stamp::EPOCH, &payload).is_ok());
+}
+
 fn step(primitive: proto::step::Primitive) -> proto::Step {
     proto::Step { cause: Some(proto::step::Cause::Change(1)), primitive: Some(primitive) }
 }
@@ -178,8 +186,8 @@ fn a_step_that_cannot_be_is_refused() {
     );
     let decay = proto::SetDecay { decay_rate_per_s: f64::NAN, ..Default::default() };
     step_refused(step(P::SetDecay(decay)), "SetDecay.decay_rate_per_s is NaN");
-    let find = proto::Find { query: "x".repeat(70_000), ..Default::default() };
-    step_refused(step(P::Find(find)), "Find.query holds more than 65536");
+    let decay = proto::SetDecay { origin: "x".repeat(70_000), ..Default::default() };
+    step_refused(step(P::SetDecay(decay)), "SetDecay.origin holds more than 65536");
     let what = |node, what| step(P::Add(proto::Add { node, what, access_rooms: vec![] }));
     let (an_object, a_region) = (
         proto::add::What::Object(object()),

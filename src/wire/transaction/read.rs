@@ -81,7 +81,7 @@ fn read_find(mut fields: Fields<'_>, budget: &mut Budget) -> Result<Primitive, W
     let (mut room, mut support, mut chosen, mut candidates) = (None, None, None, Vec::new());
     while let Some(field) = fields.next()? {
         match field.number {
-            1 => query = field.text("query")?,
+            1 => query = field.derived_text("query")?,
             2 => room = Some(read_index(&field, "room", Layer::Room)?),
             3 => support = Some(read_index(&field, "support", Layer::Object)?),
             4 => field.numbers(|number| {
@@ -90,7 +90,7 @@ fn read_find(mut fields: Fields<'_>, budget: &mut Budget) -> Result<Primitive, W
                 Ok(())
             })?,
             5 => chosen = Some(read_node(&field, "chosen_node")?),
-            6 => reason = field.text("reason")?,
+            6 => reason = field.derived_text("reason")?,
             _ => {}
         }
     }
