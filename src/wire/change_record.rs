@@ -87,7 +87,7 @@ pub(super) fn read_change_record(payload: &[u8]) -> Result<ChangeRecord, WireErr
             6 => field.once(&mut parts.object, read_node_ref(&field)?)?,
             17 => parts.rejected = Some(read_outcome(&field)?),
             18 => field.text("reason_code")?.clone_into(&mut parts.code),
-            19 => field.text("reason")?.clone_into(&mut parts.reason),
+            19 => field.derived_text("reason")?.clone_into(&mut parts.reason),
             _ => read_claim(&field, &mut claim)?,
         }
     }

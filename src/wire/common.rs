@@ -108,9 +108,8 @@ pub(super) fn size(size: Size) -> proto::Size {
 pub(super) fn read_size(mut fields: Fields<'_>) -> Result<Size, WireError> {
     let mut sides = [0_u64; 3];
     while let Some(field) = fields.next()? {
-        match field.number {
-            n @ 1..=3 => sides[n as usize - 1] = field.u64()?,
-            _ => {}
+        if let n @ 1..=3 = field.number {
+            sides[n as usize - 1] = field.u64()?;
         }
     }
     // A side beyond i64 is beyond every limit: the largest one is refused as well.

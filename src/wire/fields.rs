@@ -5,10 +5,15 @@
 //! replay. Stricter than protobuf asks: numbers that do not fit their type and groups are
 //! refused. Fields that are not known are skipped, since later versions may add some.
 
+use std::fmt::Display;
+
 use super::WireError;
 
 /// Longest text of a field, in bytes, unless it says otherwise.
 pub(super) const MAX_TEXT: usize = 64 * 1024;
+/// Longest text that is derived from others: it may quote the longest input there is, with every
+/// character escaped, and must be readable all the same.
+pub(super) const MAX_DERIVED_TEXT: usize = 8 << 20;
 
 /// Walks over the fields of one message.
 #[derive(Clone, Debug)]
@@ -131,10 +136,10 @@ impl<'a> Field<'a> {
     pub fn refuse(
         &self,
         field: &'static str,
-        value: impl ToString,
+        value: impl Display,
         expected: &'static str,
     ) -> WireError {
-        let value: String = value.to_string().chars().take(80).collect();
+        let value: String = format!("{value}").chars().take(80).collect();
         WireError::Value { message: self.message, field, value: value.into(), expected }
     }
 
@@ -175,7 +180,7 @@ impl<'a> Field<'a> {
     #[inline]
     pub fn sint64(&self) -> Result<i64, WireError> {
         let value = self.u64()?;
-        Ok((value >> 1) as i64 ^ -((value & 1) as i64))
+        Ok((value >> 1).cast_signed() ^ -(value & 1).cast_signed())
     }
 
     #[inline]
@@ -222,6 +227,10 @@ impl<'a> Field<'a> {
         self.long_text(field, MAX_TEXT)
     }
 
+    pub fn derived_text(&self, field: &'static str) -> Result<&'a str, WireError> {
+        self.long_text(field, MAX_DERIVED_TEXT)
+    }
+
     pub fn long_text(&self, field: &'static str, limit: usize) -> Result<&'a str, WireError> {
         let bytes = self.bytes()?;
         if bytes.len() > limit {
@@ -234,7 +243,10 @@ impl<'a> Field<'a> {
     }
 
     /// The numbers of a repeated field, packed or one at a time.
-    pub fn numbers(&self, mut each: impl FnMut(u64) -> Result<(), WireError>) -> Result<(), WireError> {
+    pub fn numbers(
+        &self,
+        mut each: impl FnMut(u64) -> Result<(), WireError>,
+    ) -> Result<(), WireError> {
         match self.value {
             Value::Varint(value) => each(value),
             Value::Bytes(bytes) => {

@@ -124,10 +124,7 @@ fn read_objects(
 /// Puts objects on their supports, upper ones first: the graph looks for cycles downwards from
 /// the support, which then still rests on nothing, so that a high pile costs no more than a low
 /// one.
-fn rest(
-    graph: &mut SceneGraph,
-    mut resting: BTreeMap<NodeId, Placement>,
-) -> Result<(), WireError> {
+fn rest(graph: &mut SceneGraph, mut resting: BTreeMap<NodeId, Placement>) -> Result<(), WireError> {
     let mut above: BTreeMap<NodeId, usize> = BTreeMap::new();
     for support in resting.values().filter_map(|to| to.support) {
         *above.entry(support).or_default() += 1;

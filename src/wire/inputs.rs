@@ -44,9 +44,7 @@ pub(super) fn read_task(payload: &[u8]) -> Result<Task, WireError> {
     while let Some(field) = fields.next()? {
         match field.number {
             1 => field.text("task_id")?.clone_into(&mut task.task_id),
-            2 => field
-                .long_text("instruction", MAX_UTTERANCE)?
-                .clone_into(&mut task.instruction),
+            2 => field.long_text("instruction", MAX_UTTERANCE)?.clone_into(&mut task.instruction),
             3 => field.once(&mut task.object, read_node_ref(&field)?)?,
             4 => field.once(&mut task.source_room, read_node_ref(&field)?)?,
             5 => field.once(&mut task.target_room, read_node_ref(&field)?)?,
@@ -87,7 +85,8 @@ pub(super) fn read_task_status(payload: &[u8]) -> Result<TaskStatus, WireError> 
                 status = Some(match field.u64()? {
                     n @ 1..=5 => Status::ALL[n as usize - 1],
                     other => {
-                        let expected = "1 (started), 2 (picked), 3 (placed), 4 (failed) or 5 (done)";
+                        let expected =
+                            "1 (started), 2 (picked), 3 (placed), 4 (failed) or 5 (done)";
                         return Err(field.refuse("status", other, expected));
                     }
                 });
@@ -130,7 +129,7 @@ pub(super) fn read_interpretation(payload: &[u8]) -> Result<Interpretation, Wire
             3 => field.once(&mut source_room, read_node_ref(&field)?)?,
             4 => field.once(&mut target_room, read_node_ref(&field)?)?,
             5 => field.once(&mut support, read_node_ref(&field)?)?,
-            6 => note = field.text("note")?,
+            6 => note = field.derived_text("note")?,
             _ => {}
         }
     }
