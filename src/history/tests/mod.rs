@@ -3,3 +3,4 @@
 mod arbitrary;
 mod diff;
 mod fixture;
+mod why;
