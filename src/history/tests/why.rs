@@ -1,14 +1,18 @@
 //! The life of a node, told from its log.
 
 use insta::assert_snapshot;
+use proptest::prelude::*;
 
-use super::fixture::{id, label, log, start};
+use super::arbitrary;
+use super::fixture::{id, journey, label, log, start};
 use crate::change::{
     Action, Cause, ChangeRecord, Claim, Departure, EvidenceRef, Modality, NodeRef, Occurred,
-    Outcome, Primitive, Sighting, Step, Transaction,
+    Outcome, Primitive, Sighting, Step, Transaction, World,
 };
 use crate::event::{Event, Logged, Utterance};
-use crate::history::{Selector, Slice, WhyDocument, WhyError, why};
+use crate::graph::{Layer, NodeId};
+use crate::history::why::Presence;
+use crate::history::{Selector, Slice, WhyDocument, WhyError, advance, why};
 
 fn tell(log: &[Logged], who: &str) -> String {
     let who: Selector = who.parse().unwrap();
@@ -73,7 +77,10 @@ fn the_story_ends_where_it_is_told_to() {
     let log = breakfast();
     let why = why(&Slice(&log), 4, &Selector::Id(id("O4"))).unwrap();
     assert_eq!((why.upto.order, why.entries.len()), (4, 1));
-    assert_eq!(why.to_string().lines().next(), Some("mug O4: in the gripper since 2026-01-05T08:00:00Z (event #4)"));
+    assert_eq!(
+        why.to_string().lines().next(),
+        Some("mug O4: in the gripper since 2026-01-05T08:00:00Z (event #4)")
+    );
 }
 
 #[test]
@@ -101,6 +108,39 @@ fn several_with_a_history_are_listed() {
     error: "mug" may be any of these, so give an id:
       mug O4  in the gripper, picked in kitchen, in cupboard O7
       mug O5  bedroom, on bed O6
+    "#);
+}
+
+#[test]
+fn a_task_is_told_before_its_reports() {
+    let log = log("470 t told tv remote on table
+         480 t picked
+         485 t placed
+         490 u picked mug
+         500 u picked O77");
+    assert_snapshot!(tell(&log, "tv remote"), @r#"
+    tv remote O8: kitchen, on table O1, since 2026-01-05T08:05:00Z (event #9)
+
+    2026-01-05 00:00:00  #1    in the initial graph: bedroom, on bed O6
+    2026-01-05 08:00:00  c1    picked up from bedroom, on bed O6
+                               action: the robot was told "Fetch the tv remote on table." (#2); the robot's task t reported "picked" (#4)
+                               found as the only tv remote known
+    2026-01-05 08:05:00  c2    put down: kitchen, on table O1
+                               action: the robot was told "Fetch the tv remote on table." (#2); the robot's task t reported "placed" (#7)
+                               named by its id
+    "#);
+    assert_snapshot!(tell(&log, "O5"), @r#"
+    mug O5: bedroom, since 2026-01-05T00:00:00Z (event #1)
+
+    2026-01-05 00:00:00  #1    in the initial graph: bedroom
+    2026-01-05 08:10:00  c3    a pick was claimed and rejected: mug is ambiguous: O4, O5
+                               action: the robot's task u reported "picked" (#10)
+    "#);
+    assert_snapshot!(tell(&log, "O77"), @r#"
+    O77: never in the graph
+
+    2026-01-05 08:20:00  c4    a pick was claimed and rejected: no such object known: O77
+                               action: the robot's task u reported "picked" (#12)
     "#);
 }
 
@@ -200,4 +240,33 @@ fn a_log_that_cannot_be_folded_says_where() {
     append(&mut log, 1, vec![Event::Transaction(Transaction { at: start(), steps })]);
     let error = why(&Slice(&log), u64::MAX, &Selector::Id(id("O4"))).unwrap_err();
     assert!(matches!(&error, WhyError::Fold(fold) if fold.order == 2), "{error}");
+}
+
+proptest! {
+    #[test]
+    fn the_life_of_every_node_ends_as_the_world_does(
+        graphs in prop::collection::vec(arbitrary::graph(), 1..4),
+        (a, b) in arbitrary::two_in_one_house(),
+    ) {
+        for log in [journey(&graphs), journey(&[a, b])] {
+            let mut world = World::default();
+            for logged in &log {
+                advance(&mut world, logged).unwrap();
+            }
+            let ids: Vec<NodeId> = (0..9).filter_map(|n| NodeId::new(Layer::Object, n)).collect();
+            for id in ids {
+                let Ok(why) = why(&Slice(&log), u64::MAX, &Selector::Id(id)) else {
+                    prop_assert!(world.known(id).is_none());
+                    continue;
+                };
+                prop_assert_eq!(why.state.presence, Presence::of(&world, id));
+                prop_assert!(why.state.since.is_some());
+                let orders: Vec<u64> = why.entries.iter().map(|it| it.moment.order).collect();
+                prop_assert!(orders.is_sorted());
+                let last = why.entries.last().and_then(|entry| entry.after.clone());
+                let there = why.state.presence != Presence::Absent;
+                prop_assert!(why.entries.is_empty() || last == why.state.place.filter(|_| there));
+            }
+        }
+    }
 }

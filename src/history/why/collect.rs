@@ -53,7 +53,7 @@ struct Life {
     entries: Vec<Entry>,
     recent: VecDeque<ChangeRecord>,
     /// When it last came, went or moved.
-    since: Moment,
+    since: Option<Moment>,
     last: Moment,
 }
 
@@ -75,7 +75,7 @@ impl Snapshot {
 
 impl Life {
     fn new(id: NodeId) -> Self {
-        let (since, last) = (Moment::default(), Moment::default());
+        let (since, last) = (None, Moment::default());
         let (entries, recent) = (Vec::new(), VecDeque::new());
         Self { id, label: None, initial: None, entries, recent, since, last }
     }
@@ -86,7 +86,7 @@ impl Life {
         }
         self.label = world.graph().label(self.id).cloned();
         let moment = Moment::of(logged);
-        self.since = moment;
+        self.since = Some(moment);
         self.initial = Some(Initial { moment, place: place(world, self.id) });
     }
 
@@ -181,7 +181,7 @@ impl Life {
     /// Adds an entry; a sighting that tells nothing new is counted with the one before it.
     fn push(&mut self, mut entry: Entry) {
         if entry.primitives.iter().any(is_decisive) {
-            self.since = entry.moment;
+            self.since = Some(entry.moment);
         }
         if is_plain_sighting(&entry) {
             if let Some(Entry { sightings: Some(sightings), .. }) = self.entries.last_mut() {

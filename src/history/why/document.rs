@@ -2,10 +2,8 @@
 
 use serde::Serialize;
 
-use super::{Entry, Initial, Moment, State, Why};
-use crate::document::{
-    ChangeDocument, EventDocument, PrimitiveDocument, RefDocument,
-};
+use super::{Entry, Initial, State, Why};
+use crate::document::{ChangeDocument, EventDocument, PrimitiveDocument, RefDocument};
 use crate::graph::NodeId;
 use crate::history::PlaceDocument;
 
@@ -31,10 +29,10 @@ pub struct WhyDocument {
 pub struct StateDocument {
     /// `present`, `held` or `absent`.
     pub presence: &'static str,
-    /// Number of the event since which it is so.
-    pub since: u64,
+    /// Number of the event since which it is so; null if it was never there.
+    pub since: Option<u64>,
     /// When that was.
-    pub at: String,
+    pub at: Option<String>,
     /// Where it is, or was last.
     pub place: Option<PlaceDocument>,
 }
@@ -102,11 +100,10 @@ impl WhyDocument {
 
 impl StateDocument {
     fn of(state: &State) -> Self {
-        let Moment { order, at } = state.since;
         Self {
             presence: state.presence.as_str(),
-            since: order,
-            at: at.to_string(),
+            since: state.since.map(|since| since.order),
+            at: state.since.map(|since| since.at.to_string()),
             place: state.place.as_ref().map(PlaceDocument::of),
         }
     }

@@ -12,7 +12,7 @@ mod select;
 mod story;
 mod text;
 
-pub use document::{EntryDocument, SightingsDocument, StateDocument, WhyDocument};
+pub use document::{EntryDocument, InitialDocument, SightingsDocument, StateDocument, WhyDocument};
 pub use select::{Candidate, Presence, Selector};
 
 use std::fmt;
@@ -71,8 +71,8 @@ pub struct Initial {
 pub struct State {
     /// What became of it.
     pub presence: Presence,
-    /// Since which event.
-    pub since: Moment,
+    /// Since which event; nothing if it was never there.
+    pub since: Option<Moment>,
     /// Where it is; while held or absent, where it was last. Nothing for a region.
     pub place: Option<Place>,
 }
@@ -167,9 +167,9 @@ pub enum WhyError<E> {
 fn suggestion(similar: &[String]) -> String {
     match similar {
         [] => String::new(),
-        [first, rest @ ..] => {
-            let rest: String = rest.iter().map(|label| format!(" or {label:?}")).collect();
-            format!("; did you mean {first:?}{rest}?")
+        labels => {
+            let quoted: Vec<String> = labels.iter().map(|label| format!("{label:?}")).collect();
+            format!("; did you mean {}?", quoted.join(" or "))
         }
     }
 }
@@ -186,11 +186,7 @@ fn list(candidates: &[Candidate]) -> String {
 ///
 /// # Errors
 /// [`WhyError`] if the log cannot be read or folded, or if it is not clear who is meant.
-pub fn why<L: EventLog>(
-    log: &L,
-    upto: u64,
-    who: &Selector,
-) -> Result<Why, WhyError<L::Error>> {
+pub fn why<L: EventLog>(log: &L, upto: u64, who: &Selector) -> Result<Why, WhyError<L::Error>> {
     let (id, namesakes) = select::select(log, upto, who)?;
     let mut why = collect::collect(log, upto, id)?;
     why.namesakes = namesakes;

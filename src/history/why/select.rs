@@ -201,9 +201,7 @@ pub(super) fn place(world: &World, id: NodeId) -> Option<Place> {
 
 /// The node with the label it is known by, or was.
 pub(super) fn node_ref(world: &World, id: NodeId) -> NodeRef {
-    let known = world.known(id).map(|object| NodeRef {
-        id: Some(id),
-        label: Some(object.label.clone()),
-    });
+    let known =
+        world.known(id).map(|object| NodeRef { id: Some(id), label: Some(object.label.clone()) });
     known.unwrap_or_else(|| named(world.graph(), id))
 }

@@ -28,9 +28,10 @@ pub(super) fn happened(why: &Why, entry: &Entry) -> String {
     let what = entry.primitive().map_or_else(String::new, |primitive| done(entry, primitive));
     let along = why.node.id.and_then(|id: NodeId| entry.along_with(id));
     let Some(other) = along else { return what };
-    let stayed = entry.change.as_ref().is_some_and(|change| {
-        change.claim.action == Action::Removed && !change.claim.held
-    });
+    let stayed = entry
+        .change
+        .as_ref()
+        .is_some_and(|change| change.claim.action == Action::Removed && !change.claim.held);
     match (stayed, entry.primitive()) {
         (true, Some(Primitive::Move { .. })) => {
             format!("left behind when {other} was removed: {}", somewhere(entry.after.as_ref()))
@@ -106,10 +107,12 @@ fn seen_words(entry: &Entry, seen: &[Sighting]) -> String {
 pub(super) fn because(entry: &Entry) -> Option<String> {
     let who = entry.change.as_ref().map(|change| {
         let claim = &change.claim;
-        let sure = (claim.confidence < 1.0)
-            .then(|| format!(", {:.0} % sure", claim.confidence * 100.0))
-            .unwrap_or_default();
-        format!("{}{sure}", claim.modality.as_str())
+        let who = claim.modality.as_str();
+        if claim.confidence < 1.0 {
+            format!("{who}, {:.0} % sure", claim.confidence * 100.0)
+        } else {
+            who.to_owned()
+        }
     });
     let told: Vec<String> = entry.inputs.iter().map(told).collect();
     let told = if told.is_empty() { cause_only(entry) } else { Some(told.join("; ")) };

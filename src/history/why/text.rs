@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::story::{because, found, happened, time};
-use super::{Entry, Presence, Why};
+use super::{Entry, Moment, Presence, Why};
 use crate::change::Cause;
 
 /// Where the words of an entry begin: after the time and the number.
@@ -31,7 +31,10 @@ impl fmt::Display for Why {
 
 impl Why {
     fn headline(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let since = format!("since {} (event #{})", self.state.since.at, self.state.since.order);
+        let Some(Moment { order, at }) = self.state.since else {
+            return writeln!(f, "{}: never in the graph", self.node);
+        };
+        let since = format!("since {at} (event #{order})");
         let place = self.state.place.as_ref();
         match (self.state.presence, place) {
             (Presence::Present, Some(place)) => {
@@ -54,17 +57,16 @@ impl Why {
 
     /// For what is not there: what took it away, and what has been said since.
     fn outcome(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(since) = self.state.since else { return Ok(()) };
         if self.state.presence == Presence::Present {
             return Ok(());
         }
-        let last = self.entries.iter().rfind(|entry| entry.moment == self.state.since);
+        let last = self.entries.iter().rfind(|entry| entry.moment == since);
         if let Some(entry) = last.filter(|_| self.state.presence == Presence::Absent) {
             let because = because(entry).map_or(String::new(), |words| format!(", {words}"));
             writeln!(f, "It was removed by {}{because}.", number(entry))?;
         }
-        let later = |entry: &&Entry| {
-            entry.is_rejected() && entry.moment.order > self.state.since.order
-        };
+        let later = |entry: &&Entry| entry.is_rejected() && entry.moment.order > since.order;
         match self.entries.iter().filter(later).count() {
             0 => Ok(()),
             1 => writeln!(f, "Since then one claim about it was rejected."),
@@ -87,10 +89,7 @@ impl Why {
         let (when, what) = (time(entry.moment.at), happened(self, entry));
         writeln!(f, "{when}  {:<5} {what}", number(entry))?;
         let details = [because(entry), found(self, entry)];
-        details
-            .iter()
-            .flatten()
-            .try_for_each(|words| writeln!(f, "{:INDENT$}{words}", ""))
+        details.iter().flatten().try_for_each(|words| writeln!(f, "{:INDENT$}{words}", ""))
     }
 }
 
