@@ -260,7 +260,9 @@ fn remove(world: &mut World, id: NodeId, to: Departure, at: Stamp) -> Result<Und
 /// Takes a region out, with the access it gave; nothing may belong to it.
 fn remove_region(world: &mut World, id: NodeId) -> Result<Undo, WorldError> {
     let access: Vec<NodeId> = world.graph.access_from(id).collect();
-    access.iter().for_each(|other| world.graph.disconnect(id, *other));
+    for other in &access {
+        world.graph.disconnect(id, *other);
+    }
     match world.graph.remove_region(id) {
         Ok(region) => Ok(Undo::RegionRemoved(id, region, access)),
         Err(refused) => {

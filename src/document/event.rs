@@ -166,9 +166,7 @@ impl ContentDocument {
             Event::Tick => Self::Tick,
             Event::Sensor(message) => Self::sensor(message),
             Event::Interpretation(understood) => Self::interpretation(understood),
-            Event::Change(record) => {
-                Self::Change { change: Box::new(ChangeDocument::of(record)) }
-            }
+            Event::Change(record) => Self::Change { change: Box::new(ChangeDocument::of(record)) },
             Event::Transaction(transaction) => {
                 Self::Transaction { steps: transaction.steps.iter().map(step).collect() }
             }

@@ -13,9 +13,7 @@ use crate::event::{
     Event, Interpretation, Logged, SensorMessage, Status, Task, TaskStatus, Utterance,
 };
 use crate::geometry::{Pose, Size};
-use crate::graph::{
-    Label, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph,
-};
+use crate::graph::{Label, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
 use crate::time::Stamp;
 
 fn id(text: &str) -> NodeId {
@@ -101,8 +99,7 @@ fn every_primitive_has_a_document() {
         room: id("R1"),
         support: Some(id("O3")),
     };
-    let room =
-        Region { label: Label::new("hall").unwrap(), extent: None, parent: Some(id("F0")) };
+    let room = Region { label: Label::new("hall").unwrap(), extent: None, parent: Some(id("F0")) };
     let primitives = [
         Primitive::Find {
             query: "mug".into(),
@@ -172,12 +169,7 @@ fn derived() -> Vec<Event> {
             support: None,
             note: "one mug".into(),
         }),
-        Event::Change(ChangeRecord {
-            seq: 7,
-            at: at(),
-            claim: claim(),
-            outcome: Outcome::Applied,
-        }),
+        Event::Change(ChangeRecord { seq: 7, at: at(), claim: claim(), outcome: Outcome::Applied }),
         Event::Transaction(Transaction {
             at: at(),
             steps: vec![step(Cause::Change(7)), step(Cause::Evidence(evidence()))],
@@ -187,10 +179,8 @@ fn derived() -> Vec<Event> {
 
 fn documents(events: Vec<Event>) -> String {
     let logged = |(order, event)| Logged { order, at: at(), published: at(), event };
-    let lines: Vec<String> = (1..)
-        .zip(events)
-        .map(|numbered| json(&EventDocument::of(&logged(numbered))))
-        .collect();
+    let lines: Vec<String> =
+        (1..).zip(events).map(|numbered| json(&EventDocument::of(&logged(numbered)))).collect();
     lines.join("\n")
 }
 

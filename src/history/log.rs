@@ -59,9 +59,9 @@ pub struct FoldError {
 pub fn advance(world: &mut World, logged: &Logged) -> Result<bool, FoldError> {
     match &logged.event {
         Event::InitialGraph(graph) => *world = World::from_graph(graph.clone()),
-        Event::Transaction(transaction) => transaction
-            .apply(world)
-            .map_err(|error| FoldError { order: logged.order, error })?,
+        Event::Transaction(transaction) => {
+            transaction.apply(world).map_err(|error| FoldError { order: logged.order, error })?;
+        }
         _ => return Ok(false),
     }
     Ok(true)

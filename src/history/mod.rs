@@ -10,17 +10,17 @@
 //!
 //! Invariant: a world is advanced by initial graphs and transactions only ([`advance`]).
 
-//pub mod bisect;
+pub mod bisect;
 pub mod diff;
 mod log;
 mod place;
-//pub mod why;
+pub mod why;
 
-//pub use bisect::{BisectDocument, BisectError, Expr, Hit, first_holding};
+pub use bisect::{BisectDocument, BisectError, Expr, Hit, first_holding};
 pub use diff::{Diff, DiffDocument, primitives_between};
 pub use log::{EventLog, FoldError, Slice, advance};
 pub use place::{Place, PlaceDocument};
-//pub use why::{Selector, Why, WhyDocument, WhyError, why};
+pub use why::{Selector, Why, WhyDocument, WhyError, why};
 
 #[cfg(test)]
 mod tests;

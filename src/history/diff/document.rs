@@ -110,10 +110,9 @@ fn presence(it: &Presence) -> PresenceDocument {
 }
 
 fn moved(it: &Moved) -> MovedDocument {
-    let (distance, angle) = match it.from.pose == it.to.pose {
-        true => (0.0, 0.0),
-        false => it.from.pose.distance(&it.to.pose),
-    };
+    // Equal orientations can be a rounding error apart.
+    let same = it.from.pose == it.to.pose;
+    let (distance, angle) = if same { (0.0, 0.0) } else { it.from.pose.distance(&it.to.pose) };
     MovedDocument {
         id: id(&it.node),
         label: label(&it.node),

@@ -99,9 +99,8 @@ impl Diff {
         tolerance: &Tolerance,
         last_observed: LastObserved,
     ) -> Self {
-        let mut diff = Self::default();
-        diff.removed = only_in(from, to);
-        diff.added = only_in(to, from);
+        let (removed, added) = (only_in(from, to), only_in(to, from));
+        let mut diff = Self { added, removed, ..Self::default() };
         // The layers in the order of the letters of their ids.
         for layer in [Layer::Building, Layer::Floor] {
             diff.compare_regions(layer, from, to, tolerance);

@@ -138,7 +138,10 @@ impl Path {
                 };
                 Primitive::Add { id: *id, node: Node::Object(free) }
             } else if object.support.is_some() {
-                Primitive::Move { id: *id, to: Placement { support: None, ..Placement::of(object) } }
+                Primitive::Move {
+                    id: *id,
+                    to: Placement { support: None, ..Placement::of(object) },
+                }
             } else {
                 continue;
             };

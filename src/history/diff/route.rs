@@ -23,9 +23,10 @@ pub(super) fn route(
         (Some(before), Some(after)) if before == after => vec![],
         (Some(before), Some(after)) if before.is_held() => {
             let same = Object { decay_rate: after.decay_rate, ..before.clone() } == *after;
-            match same {
-                true => set_decay(id, before, after).into_iter().collect(),
-                false => vec![add(in_place(after, None))],
+            if same {
+                set_decay(id, before, after).into_iter().collect()
+            } else {
+                vec![add(in_place(after, None))]
             }
         }
         (Some(before), Some(after)) if before.label != after.label => {

@@ -40,8 +40,7 @@ fn moved(it: &Moved) -> String {
     if it.fields.contains(&"pose_source") && !it.from.is_held() && !it.to.is_held() {
         notes.push(format!("{} → {}", from.as_str(), to.as_str()));
     }
-    let notes =
-        if notes.is_empty() { String::new() } else { format!(" ({})", notes.join(", ")) };
+    let notes = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join(", ")) };
     let (from, to) = (it.from.to_string(), it.to.to_string());
     if from == to {
         return format!("~ {}  {to} {notes}", it.node);

@@ -106,7 +106,7 @@ fn furnish(mut graph: SceneGraph, drafts: Vec<Draft>) -> SceneGraph {
         let on_held = support.and_then(|on| graph.object(on)).is_some_and(Object::is_held);
         let pose_source = if on_held { PoseSource::Held } else { draft.object.pose_source };
         let room = *draft.room.get(&rooms);
-        let object = Object { room, support, pose_source, ..draft.object };
+        let object = Object { pose_source, room, support, ..draft.object };
         if graph.insert_object(id, object).is_ok() {
             placed.push(id);
         }

@@ -1,9 +1,10 @@
 //! Small worlds and logs from lines of text.
 
-use crate::change::NodeRef;
-use crate::event::{Event, Logged, Status, TaskStatus};
+use crate::change::{Cause, NodeRef, Step, Transaction, World};
+use crate::event::{Event, Logged, Status, Task, TaskStatus};
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
+use crate::history::primitives_between;
 use crate::time::Stamp;
 use crate::updater::{Config, Updater};
 
@@ -56,7 +57,9 @@ pub fn graph(lines: &str) -> SceneGraph {
         graph.insert_object(id(words[0]), Object { support: None, ..object }).unwrap();
     }
     // A support may come later in the text.
-    resting.iter().for_each(|(id, placement)| graph.place_object(*id, placement).unwrap());
+    for (id, placement) in &resting {
+        graph.place_object(*id, placement).unwrap();
+    }
     graph
 }
 
@@ -77,7 +80,8 @@ pub fn house() -> SceneGraph {
 }
 
 /// A log from lines such as `480 t picked mug`, `490 t placed mug on table in kitchen`,
-/// `500 tick`, `510 t failed`: minutes since midnight, task, status, and what it names.
+/// `500 tick`, `510 t failed`: minutes since midnight, task, status, and what it names; and
+/// `470 t told mug on bed`, a task.
 pub fn log(lines: &str) -> Vec<Logged> {
     let mut updater = Updater::new(Config::default());
     let mut log = updater.update(start(), Event::InitialGraph(house())).unwrap();
@@ -96,14 +100,44 @@ fn input(line: &str) -> Event {
     let mut words = line.splitn(3, ' ');
     let (task, status) = (words.next().unwrap(), words.next().unwrap());
     let named = words.next().unwrap_or_default();
-    let status = Status::ALL.into_iter().find(|s| s.as_str() == status).unwrap();
+    let told = status == "told";
     let (named, room) = split(named, " in ");
     let (object, support) = split(named, " on ");
     let object = Some(object).filter(|object| !object.is_empty()).map(node);
     let (room, support) = (room.map(node), support.map(node));
+    if told {
+        let instruction = format!("Fetch the {named}.");
+        return Event::Task(Task {
+            task_id: task.into(),
+            instruction,
+            object,
+            target_room: room,
+            support,
+            ..Task::default()
+        });
+    }
+    let status = Status::ALL.into_iter().find(|s| s.as_str() == status).unwrap();
     Event::TaskStatus(TaskStatus { object, room, support, ..TaskStatus::bare(task, status) })
 }
 
 fn split<'a>(text: &'a str, at: &str) -> (&'a str, Option<&'a str>) {
     text.split_once(at).map_or((text, None), |(head, tail)| (head, Some(tail)))
+}
+
+/// A log that leads through `graphs`, one primitive at a time, a second each.
+pub fn journey(graphs: &[SceneGraph]) -> Vec<Logged> {
+    let mut world = World::from_graph(graphs[0].clone());
+    let mut events = vec![Event::InitialGraph(graphs[0].clone())];
+    for graph in &graphs[1..] {
+        for primitive in primitives_between(&world, graph, Stamp::EPOCH) {
+            primitive.apply(&mut world).unwrap();
+            let steps = vec![Step { cause: Cause::Change(events.len() as u64), primitive }];
+            events.push(Event::Transaction(Transaction { at: Stamp::EPOCH, steps }));
+        }
+    }
+    let logged = |(order, event)| {
+        let at = Stamp::from_nanos(order * 1_000_000_000);
+        Logged { order, at, published: at, event }
+    };
+    (1..).zip(events).map(logged).collect()
 }
