@@ -5,3 +5,4 @@ mod bytes;
 pub mod graph;
 pub mod change;
 pub mod event;
+pub mod interchange;

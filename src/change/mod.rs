@@ -17,6 +17,7 @@ mod transaction;
 mod world;
 
 pub use evidence::EvidenceRef;
+pub(crate) use planner::topological_pose;
 pub use planner::{Plan, PlanConfig, plan};
 pub use primitive::{Departure, Primitive, Sighting, Undo};
 pub use record::{Action, ChangeRecord, Claim, Modality, NodeRef, Occurred, Outcome};
