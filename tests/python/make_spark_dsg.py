@@ -68,10 +68,10 @@ def main(path):
     for source, target in edges:
         assert graph.insert_edge(symbol(*source), symbol(*target)), (source, target)
 
-    graph.add_layer(2, "a", "AGENTS") if not graph.has_layer(2, "a") else None
     agent = dsg.AgentNodeAttributes()
     agent.position = np.array([0.5, 0.5, 0.0])
-    graph.add_node("AGENTS", symbol("a", 0), agent) if False else None
+    graph.add_node(2, symbol("a", 0), agent, ord("a"))
+    graph.insert_edge(symbol("p", 0), symbol("a", 0))
     graph.save(path, include_mesh=False)
 
 
