@@ -18,6 +18,8 @@ mod transaction;
 mod world;
 
 pub use evidence::EvidenceRef;
+pub(crate) use planner::topological_pose;
+pub(crate) use resolve::room_around;
 pub use planner::{Plan, PlanConfig, plan};
 pub use primitive::{Departure, Primitive, Sighting, Undo};
 pub use record::{Action, ChangeRecord, Claim, Modality, NodeRef, Occurred, Outcome};

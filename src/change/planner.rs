@@ -287,7 +287,7 @@ fn find_support(
 
 /// The pose of something of which only the support or the room is known: upright, in the middle
 /// of the support's upper face; else in the middle of the room; else at the origin.
-fn topological_pose(
+pub(crate) fn topological_pose(
     graph: &SceneGraph,
     room: NodeId,
     support: Option<NodeId>,

@@ -157,7 +157,7 @@ pub(super) fn find_room(graph: &SceneGraph, wanted: &NodeRef) -> Result<NodeId, 
 }
 
 /// The smallest room whose box holds the position of `pose`, if any does.
-pub(super) fn room_around(graph: &SceneGraph, pose: &Pose) -> Option<NodeId> {
+pub(crate) fn room_around(graph: &SceneGraph, pose: &Pose) -> Option<NodeId> {
     let holds = |(id, room): (NodeId, &Region)| {
         let (centre, size) = room.extent?;
         let local = centre.isometry().inverse_transform_point(&pose.point());
