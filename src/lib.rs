@@ -12,3 +12,6 @@ pub mod history;
 pub mod wire;
 pub mod container;
 pub mod recording;
+pub mod interchange;
+pub mod snapshot;
+pub mod cli;

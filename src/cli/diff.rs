@@ -3,6 +3,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::Context;
+
 use super::output::Output;
 use super::replay::state_at;
 use super::source::{self, is_mcap, text};
@@ -10,7 +12,7 @@ use super::{Outcome, UsageError};
 use crate::geometry::Tolerance;
 use crate::graph::SceneGraph;
 use crate::history::{Diff as GraphDiff, DiffDocument};
-use crate::interchange::scene::SceneDocument;
+use crate::interchange::scene;
 use crate::time::At;
 
 /// What changed between two points of a recording, or between two recordings
@@ -55,7 +57,8 @@ pub fn run(args: &Diff, out: &mut Output) -> anyhow::Result<Outcome> {
     let default_from = if args.b.is_some() { At::End } else { At::Start };
     let from = graph(&args.a, args.from.unwrap_or(default_from))?;
     let to = graph(args.b.as_ref().unwrap_or(&args.a), args.to)?;
-    let diff = GraphDiff::between_with(&from, &to, &tolerance, args.observed);
+    let compare = if args.observed { GraphDiff::complete } else { GraphDiff::between };
+    let diff = compare(&from, &to, &tolerance);
     if args.json {
         out.json(&DiffDocument::of(&diff))?;
     } else if diff.is_empty() {
@@ -86,10 +89,8 @@ fn graph(path: &PathBuf, at: At) -> anyhow::Result<SceneGraph> {
         source::warn(&recording);
         return Ok(state.world.graph().clone());
     }
-    let (graph, ..) = SceneDocument::parse(&text(path)?)
-        .and_then(SceneDocument::to_graph)
-        .map_err(|error| anyhow::Error::new(error).context(path.display().to_string()))?;
-    Ok(graph)
+    let import = scene::import(&text(path)?).with_context(|| path.display().to_string())?;
+    Ok(import.graph)
 }
 
 fn looks_like_json(path: &PathBuf) -> bool {

@@ -54,7 +54,7 @@ pub fn run(args: &Export, out: &mut Output) -> anyhow::Result<Outcome> {
         Format::Scene => {
             serde_json::to_string_pretty(&SceneDocument::of(graph, state.at))? + "\n"
         }
-        Format::SparkDsg => spark_dsg::export(graph) + "\n",
+        Format::SparkDsg => serde_json::to_string_pretty(&spark_dsg::export(graph))? + "\n",
         Format::Dot => dot::export(graph),
     };
     match &args.out {

@@ -13,8 +13,8 @@ use super::replay::state_at;
 use super::source::{self, is_mcap, text};
 use super::{Outcome, UsageError};
 use crate::event::Event;
-use crate::interchange::lines::{InputLine, LineError};
-use crate::interchange::scene::SceneDocument;
+use crate::interchange::lines;
+use crate::interchange::scene;
 use crate::recording::{Recorded, Recorder, RecorderOptions, SyncPolicy};
 use crate::time::{At, Span, Stamp};
 use crate::updater::Config;
@@ -108,9 +108,9 @@ fn take(
         out.json_line(&Refusal { line: number, error })?;
         Ok(false)
     };
-    let (at, event) = match InputLine::parse(line) {
+    let (at, event) = match lines::parse(line) {
         Ok(input) => input,
-        Err(error @ LineError { .. }) => return refuse(out, error.to_string()),
+        Err(error) => return refuse(out, error.to_string()),
     };
     match recorder.record(at, event) {
         Ok(recorded) => {
@@ -174,8 +174,6 @@ fn initial_graph(path: &PathBuf) -> anyhow::Result<(crate::graph::SceneGraph, St
         let state = state_at(&recording, At::End)?;
         return Ok((state.world.graph().clone(), state.at));
     }
-    let (graph, at, ..) = SceneDocument::parse(&text(path)?)
-        .and_then(SceneDocument::to_graph)
-        .with_context(|| path.display().to_string())?;
-    Ok((graph, at))
+    let import = scene::import(&text(path)?).with_context(|| path.display().to_string())?;
+    Ok((import.graph, import.start))
 }

@@ -151,7 +151,8 @@ impl CauseDocument {
 }
 
 impl ContentDocument {
-    fn of(event: &Event) -> Self {
+    /// The document of an event's content.
+    pub fn of(event: &Event) -> Self {
         match event {
             Event::InitialGraph(graph) => Self::InitialGraph {
                 rooms: graph.rooms().count(),

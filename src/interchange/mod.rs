@@ -13,6 +13,7 @@
 
 pub mod actions;
 pub mod dot;
+pub mod lines;
 mod json;
 mod report;
 pub mod scene;
