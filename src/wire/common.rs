@@ -79,6 +79,7 @@ pub(super) fn pose(pose: &Pose) -> proto::Pose {
     proto::Pose { x_um, y_um, z_um, qw_e7, qx_e7, qy_e7, qz_e7 }
 }
 
+#[inline]
 pub(super) fn read_pose(mut fields: Fields<'_>) -> Result<Pose, WireError> {
     let mut position = [0; 3];
     let mut orientation = [0; 4];

@@ -44,7 +44,8 @@ impl<'a> Fields<'a> {
     }
 
     /// The next field; `None` at the end.
-    #[inline]
+    #[inline(always)] // measured: a field that goes through memory costs as much as its number
+    #[allow(clippy::inline_always)]
     pub fn next(&mut self) -> Result<Option<Field<'a>>, WireError> {
         if self.rest.is_empty() {
             return Ok(None);
@@ -79,12 +80,23 @@ impl<'a> Fields<'a> {
         match self.rest {
             [byte, rest @ ..] if *byte < 0x80 => {
                 self.rest = rest;
-                Ok(u64::from(*byte))
+                return Ok(u64::from(*byte));
             }
-            _ => self.long_varint(),
+            _ => {}
         }
+        if let Some(word) = self.rest.first_chunk::<8>() {
+            let word = u64::from_le_bytes(*word);
+            // The high bit of the first byte that ends a number.
+            let end = !word & 0x8080_8080_8080_8080;
+            if end != 0 {
+                self.rest = &self.rest[end.trailing_zeros() as usize / 8 + 1..];
+                return Ok(joined(word & (end ^ (end - 1))));
+            }
+        }
+        self.long_varint()
     }
 
+    #[cold]
     fn long_varint(&mut self) -> Result<u64, WireError> {
         let mut value = 0_u64;
         for (n, byte) in self.rest.iter().enumerate().take(10) {
@@ -261,6 +273,14 @@ impl<'a> Field<'a> {
     }
 }
 
+/// Joins the low seven bits of eight bytes, pair by pair, without a branch.
+#[inline]
+const fn joined(word: u64) -> u64 {
+    let pairs = (word & 0x007f_007f_007f_007f) | ((word & 0x7f00_7f00_7f00_7f00) >> 1);
+    let fours = (pairs & 0x0000_3fff_0000_3fff) | ((pairs & 0x3fff_0000_3fff_0000) >> 2);
+    (fours & 0x0fff_ffff) | ((fours & 0x0fff_ffff_0000_0000) >> 4)
+}
+
 /// The value of a field that must be there.
 #[inline]
 pub(super) fn required<T>(
@@ -269,4 +289,30 @@ pub(super) fn required<T>(
     field: &'static str,
 ) -> Result<T, WireError> {
     value.ok_or(WireError::Missing { message, field })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use prost::encoding::{decode_varint, encode_varint};
+
+    proptest! {
+        #[test]
+        fn numbers_read_as_generated_code_reads_them(
+            value: u64, bits in 0..64_u32, tail in proptest::collection::vec(any::<u8>(), 0..12),
+        ) {
+            let mut bytes = Vec::new();
+            encode_varint(value >> bits, &mut bytes);
+            bytes.extend(tail);
+            let mut fields = Fields::new("Tick", &bytes);
+            prop_assert_eq!(fields.varint(), Ok(value >> bits));
+            let ours = fields.varint().ok();
+            let mut rest = &bytes[prost::encoding::encoded_len_varint(value >> bits)..];
+            prop_assert_eq!(ours, decode_varint(&mut rest).ok());
+            if ours.is_some() {
+                prop_assert_eq!(fields.rest, rest);
+            }
+        }
+    }
 }

@@ -43,6 +43,7 @@ pub fn decode_transaction(at: Stamp, payload: &[u8]) -> Result<Transaction, Wire
     Ok(Transaction { at, steps })
 }
 
+#[inline]
 fn read_step(
     mut fields: Fields<'_>,
     before: Option<&Cause>,
@@ -158,6 +159,7 @@ fn read_remove(mut fields: Fields<'_>, log_time: Stamp) -> Result<Primitive, Wir
     Ok(Primitive::Remove { id, to: required(to, "Remove", "to")?, at })
 }
 
+#[inline]
 fn read_move(mut fields: Fields<'_>, log_time: Stamp) -> Result<Primitive, WireError> {
     let (mut id, mut room, mut at) = (first(Layer::Object), first(Layer::Room), log_time);
     let (mut support, mut pose, mut pose_source) = (None, None, None);
