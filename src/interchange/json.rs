@@ -2,6 +2,9 @@
 //!
 //! Also the JSON form of poses and sizes. Knows nothing of any one format.
 
+// What serde calls with a reference takes one.
+#![allow(clippy::ref_option, clippy::trivially_copy_pass_by_ref)]
+
 use std::fmt::Display;
 
 use serde::{Serialize, Serializer};
@@ -173,16 +176,14 @@ impl From<Pose> for PoseJson {
 }
 
 /// Writes an optional value as its text.
-pub(super) fn shown<T: Display, S: Serializer>(value: &Option<T>, to: S) -> Result<S::Ok, S::Error> {
+pub(super) fn shown<T: Display, S: Serializer>(
+    value: &Option<T>,
+    to: S,
+) -> Result<S::Ok, S::Error> {
     match value {
         Some(value) => to.collect_str(value),
         None => to.serialize_none(),
     }
-}
-
-/// Writes values as their texts.
-pub(super) fn all_shown<T: Display, S: Serializer>(values: &[T], to: S) -> Result<S::Ok, S::Error> {
-    to.collect_seq(values.iter().map(ToString::to_string))
 }
 
 /// Writes an optional pose as `{position, orientation}`.

@@ -51,7 +51,10 @@ impl ImportReport {
         self.count("rooms", graph.rooms().count() as u64);
         self.count("floors", graph.regions(Layer::Floor).count() as u64);
         self.count("buildings", graph.regions(Layer::Building).count() as u64);
-        self.count("supports", graph.all_objects().filter(|(_, o)| o.support.is_some()).count() as u64);
+        self.count(
+            "supports",
+            graph.all_objects().filter(|(_, o)| o.support.is_some()).count() as u64,
+        );
         self.count("accesses", graph.access().count() as u64);
     }
 }
@@ -59,7 +62,8 @@ impl ImportReport {
 /// One line of counts, then one line per note.
 impl fmt::Display for ImportReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let counts: Vec<String> = self.counts.iter().map(|(what, n)| format!("{n} {what}")).collect();
+        let counts: Vec<String> =
+            self.counts.iter().map(|(what, n)| format!("{n} {what}")).collect();
         f.write_str(&counts.join(", "))?;
         self.notes.iter().try_for_each(|note| write!(f, "\n{note}"))
     }

@@ -38,7 +38,9 @@ impl Line<'_> {
     /// A whole number up to `most`.
     pub fn count(&self, column: usize, most: u32) -> Result<u32, ActionsError> {
         let count = self.text(column).parse().ok().filter(|count| *count <= most);
-        count.ok_or_else(|| self.wrong(column, &format!("it must be a whole number from 0 to {most}")))
+        count.ok_or_else(|| {
+            self.wrong(column, &format!("it must be a whole number from 0 to {most}"))
+        })
     }
 
     /// A number from 0 to `most`.
@@ -52,11 +54,7 @@ impl Line<'_> {
         Label::new(self.text(column)).map_err(|error| self.error(format!("{name}: {error}")))
     }
 
-    pub fn one_of<T: Copy>(
-        &self,
-        column: usize,
-        known: &[(&str, T)],
-    ) -> Result<T, ActionsError> {
+    pub fn one_of<T: Copy>(&self, column: usize, known: &[(&str, T)]) -> Result<T, ActionsError> {
         let found = known.iter().find(|(word, _)| *word == self.text(column));
         found.map(|(_, value)| *value).ok_or_else(|| {
             let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
@@ -73,8 +71,7 @@ pub(super) fn read<T>(
     mut row: impl FnMut(&Line<'_>) -> Result<T, ActionsError>,
 ) -> Result<Vec<T>, ActionsError> {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let damaged = |error: &csv::Error| {
         let line = error.position().map_or(0, csv::Position::line);
         let problem = match error.kind() {

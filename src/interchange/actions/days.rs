@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use super::Options;
 use super::homes::{Home, Homes};
 use super::rows::Row;
-use super::{ActionsError, Options};
 use crate::change::{
     Action, Cause, Claim, Modality, NodeRef, Occurred, PlanConfig, Step, Transaction, World, plan,
 };
@@ -25,7 +25,7 @@ pub(super) fn play(
     options: &Options<'_>,
     destinations: &BTreeMap<u32, NodeId>,
     report: &mut ImportReport,
-) -> Result<Vec<(Stamp, Event)>, ActionsError> {
+) -> Vec<(Stamp, Event)> {
     let mut player = Player {
         world: World::from_graph(graph.clone()),
         now: options.start,
@@ -39,10 +39,15 @@ pub(super) fn play(
             day = row.day_overall;
             player.reset(homes, options, day);
         }
-        player.advance(options, day, row.millis * NANOS_PER_MILLI, "rows set to the end of the day before");
+        player.advance(
+            options,
+            day,
+            row.millis * NANOS_PER_MILLI,
+            "rows set to the end of the day before",
+        );
         player.row(row, options.name, destinations);
     }
-    Ok(player.events)
+    player.events
 }
 
 struct Player<'a> {
@@ -75,13 +80,12 @@ impl Player<'_> {
         }
         self.report.count("puts of what is not in the gripper", u64::from(!held));
         let place = row.destination.as_ref().map(|(number, _)| destinations[number]);
-        let to = match place {
-            Some(place) => self.place_at(place),
-            None => {
-                self.report.count("puts without a destination, taken as back to where it was", 1);
-                let before = self.picked_from.get(&row.object).copied();
-                before.unwrap_or_else(|| self.home_now(row.object))
-            }
+        let to = if let Some(place) = place {
+            self.place_at(place)
+        } else {
+            self.report.count("puts without a destination, taken as back to where it was", 1);
+            let before = self.picked_from.get(&row.object).copied();
+            before.unwrap_or_else(|| self.home_now(row.object))
         };
         self.place(row.object, to, task);
     }

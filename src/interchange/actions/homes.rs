@@ -91,7 +91,9 @@ fn settle(
         for id in chain.into_iter().rev().filter(|id| settled.insert(*id)).collect::<Vec<_>>() {
             let mut place = wanted.get(&id).copied().flatten();
             if place.is_some_and(|place| !places.graph.contains(place)) {
-                report.note(format!("{id} begins in a room known only by name: its place rests on it"));
+                report.note(format!(
+                    "{id} begins in a room known only by name: its place rests on it"
+                ));
                 place = None;
             }
             homes.push((id, insert(places, id, things[&id], place, options)?));
@@ -112,7 +114,9 @@ fn insert(
     let room = match (place, support.and_then(|on| places.graph.object(on)), &known) {
         (_, Some(below), _) => below.room,
         (Some(room), None, _) => room,
-        (None, None, Some(object)) => return Ok(Home { room: object.room, support: object.support }),
+        (None, None, Some(object)) => {
+            return Ok(Home { room: object.room, support: object.support });
+        }
         (None, None, None) => places.unknown_room()?,
     };
     let size = match &known {

@@ -100,7 +100,7 @@ pub fn import(csv: &str, options: &Options<'_>) -> Result<Import, ActionsError> 
     let homes = homes::find(&mut places, options, &rows, &initial, &mut report)?;
     places.tell(&mut report);
     let graph = places.graph;
-    let inputs = days::play(&graph, &homes, &rows, options, &places.destinations, &mut report)?;
+    let inputs = days::play(&graph, &homes, &rows, options, &places.destinations, &mut report);
     report.count_graph(&graph);
     report.count("rows", rows.len() as u64);
     report.count("events", inputs.len() as u64);

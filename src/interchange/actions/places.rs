@@ -40,8 +40,12 @@ impl Places {
         things: &BTreeSet<u32>,
     ) -> Result<Self, ActionsError> {
         let listed = options.places_csv.map(read_list).transpose()?.unwrap_or_default();
-        let named: BTreeMap<u32, &Label> =
-            rows.iter().rev().filter_map(|row| row.destination.as_ref()).map(|(n, l)| (*n, l)).collect();
+        let named: BTreeMap<u32, &Label> = rows
+            .iter()
+            .rev()
+            .filter_map(|row| row.destination.as_ref())
+            .map(|(n, l)| (*n, l))
+            .collect();
         let mut places = Self {
             graph: options.graph.clone().unwrap_or_default(),
             destinations: BTreeMap::new(),
@@ -101,7 +105,8 @@ impl Places {
         if let Some(id) = object.map(|(id, _)| id).or(room.map(|(id, _)| id)) {
             return Ok(id);
         }
-        let last = self.graph.last_index(Layer::Object).into_iter().chain(self.taken.last().copied());
+        let last =
+            self.graph.last_index(Layer::Object).into_iter().chain(self.taken.last().copied());
         let number = last.max().map_or(0, |last| last + 1);
         self.make_up(node_id(Layer::Object, number, class)?, class)
     }
@@ -126,7 +131,8 @@ impl Places {
         let label = Label::new(name).expect("it was a label, or is one of ours");
         let after = self.graph.last_index(Layer::Room).map_or(0, |last| last + 1);
         // Not a number that a destination has: that would be taken for this room.
-        let number = (after..).find(|number| !self.taken.contains(number)).unwrap_or(u32::MAX);
+        let number =
+            (after..=u32::MAX).find(|number| !self.taken.contains(number)).unwrap_or(u32::MAX);
         let id = node_id(Layer::Room, number, &label)?;
         self.graph.insert_region(id, named_only(label))?;
         Ok(id)

@@ -103,7 +103,8 @@ fn check_order(rows: &[Row], lines: &[u64]) -> Result<(), ActionsError> {
             || after.split < before.split
         {
             let what = if after.day_overall == before.day_overall { "minute" } else { "day" };
-            let problem = format!("the {what} is before that of the line above: sort the log by time");
+            let problem =
+                format!("the {what} is before that of the line above: sort the log by time");
             return Err(ActionsError::Line { file: "actions", line: *line, problem });
         }
     }

@@ -1,3 +1,6 @@
+// Lengths lie on a grid: equality is exact.
+#![allow(clippy::float_cmp)]
+
 use std::collections::BTreeMap;
 
 use super::*;
@@ -174,7 +177,10 @@ fn places_come_from_graph_list_and_name_in_this_order() {
     assert_eq!(graph.label(on("O12").unwrap()).unwrap().as_str(), "mat");
     let events = statuses(&import);
     assert_eq!(events[1].1.support.as_ref().unwrap().id, Some(id("O1")));
-    assert_eq!((&events[3].1.support, events[3].1.room.as_ref().unwrap().id), (&None, Some(id("R41"))));
+    assert_eq!(
+        (&events[3].1.support, events[3].1.room.as_ref().unwrap().id),
+        (&None, Some(id("R41")))
+    );
     // The knife was put back without a word where: where it was grabbed.
     assert_eq!(events[9].1.support.as_ref().unwrap().id, Some(id("O2")));
     let notes = import.report.notes.join("\n");

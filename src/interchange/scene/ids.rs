@@ -37,7 +37,9 @@ impl Ids {
         for (n, (id, label)) in given.into_iter().enumerate() {
             let id = match id {
                 Some(id) => id,
-                None => ids.number(&mut free).ok_or_else(|| SceneError::NoIdLeft { path: path(n) })?,
+                None => {
+                    ids.number(&mut free).ok_or_else(|| SceneError::NoIdLeft { path: path(n) })?
+                }
             };
             ids.position.insert(id, n);
             ids.by_label.entry(plain(label.as_str())).or_default().push(id);

@@ -12,7 +12,7 @@ impl SceneDocument {
         let value = json::parse(text)?;
         let root = At::root(&value);
         root.only(&["at", "hash", "rooms", "objects", "held", "floors", "buildings"])?;
-        let object = |held: bool| move |at: At<'_>| object(&at, held);
+        let object = |held: bool| move |at: &At<'_>| object(at, held);
         Ok(Self {
             at: root.optional("at")?.map(|at| at.parsed()).transpose()?,
             hash: text_of(&root, "hash")?,
@@ -28,9 +28,9 @@ impl SceneDocument {
 fn each<T>(
     root: &At<'_>,
     name: &str,
-    read: impl Fn(At<'_>) -> Result<T, JsonError>,
+    read: impl Fn(&At<'_>) -> Result<T, JsonError>,
 ) -> Result<Vec<T>, JsonError> {
-    root.list(name)?.into_iter().map(read).collect()
+    root.list(name)?.iter().map(read).collect()
 }
 
 fn text_of(at: &At<'_>, name: &str) -> Result<Option<String>, JsonError> {
@@ -131,34 +131,37 @@ fn source_of(at: &At<'_>, held: bool) -> Result<Option<PoseSource>, JsonError> {
     }
 }
 
-fn room(at: At<'_>) -> Result<RoomEntry, JsonError> {
+fn room(at: &At<'_>) -> Result<RoomEntry, JsonError> {
     at.only(&["id", "label", "pose", "size", "floor", "building", "access_to"])?;
-    let (pose, size) = extent_of(&at)?;
+    let (pose, size) = extent_of(at)?;
     let access = at.list("access_to")?;
-    let (floor, building) = (text_of(&at, "floor")?, text_of(&at, "building")?);
+    let (floor, building) = (text_of(at, "floor")?, text_of(at, "building")?);
     if floor.is_some() && building.is_some() {
         return Err(at.error("it has a floor and a building: the floor says which building"));
     }
     Ok(RoomEntry {
-        id: id_of(&at, Layer::Room)?,
-        label: label_of(&at)?,
+        id: id_of(at, Layer::Room)?,
+        label: label_of(at)?,
         pose,
         size,
         floor,
         building,
-        access_to: access.iter().map(|at| at.text().map(str::to_owned)).collect::<Result<_, _>>()?,
+        access_to: access
+            .iter()
+            .map(|at| at.text().map(str::to_owned))
+            .collect::<Result<_, _>>()?,
     })
 }
 
-fn floor(at: At<'_>) -> Result<FloorEntry, JsonError> {
+fn floor(at: &At<'_>) -> Result<FloorEntry, JsonError> {
     at.only(&["id", "label", "pose", "size", "building"])?;
-    let (pose, size) = extent_of(&at)?;
-    let building = text_of(&at, "building")?;
-    Ok(FloorEntry { id: id_of(&at, Layer::Floor)?, label: label_of(&at)?, pose, size, building })
+    let (pose, size) = extent_of(at)?;
+    let building = text_of(at, "building")?;
+    Ok(FloorEntry { id: id_of(at, Layer::Floor)?, label: label_of(at)?, pose, size, building })
 }
 
-fn building(at: At<'_>) -> Result<BuildingEntry, JsonError> {
+fn building(at: &At<'_>) -> Result<BuildingEntry, JsonError> {
     at.only(&["id", "label", "pose", "size"])?;
-    let (pose, size) = extent_of(&at)?;
-    Ok(BuildingEntry { id: id_of(&at, Layer::Building)?, label: label_of(&at)?, pose, size })
+    let (pose, size) = extent_of(at)?;
+    Ok(BuildingEntry { id: id_of(at, Layer::Building)?, label: label_of(at)?, pose, size })
 }

@@ -44,7 +44,8 @@ impl SceneDocument {
         let buildings = Ids::new(Layer::Building, given, |n| format!("buildings[{n}]"))?;
         for ((id, label), entry) in buildings.nodes.iter().zip(&self.buildings) {
             let extent = entry.pose.zip(entry.size);
-            graph.insert_region(*id, Region { label: label.clone(), extent, parent: None })
+            graph
+                .insert_region(*id, Region { label: label.clone(), extent, parent: None })
                 .map_err(|error| refused(id.to_string(), &error))?;
         }
         let given = self.floors.iter().map(|entry| (entry.id, entry.label.clone())).collect();
@@ -54,7 +55,8 @@ impl SceneDocument {
             let parent =
                 entry.building.as_ref().map(|name| buildings.find(name, path)).transpose()?;
             let extent = entry.pose.zip(entry.size);
-            graph.insert_region(*id, Region { label: label.clone(), extent, parent })
+            graph
+                .insert_region(*id, Region { label: label.clone(), extent, parent })
                 .map_err(|error| refused(path(), &error))?;
         }
         self.insert_rooms(graph, &floors, &buildings)
@@ -75,7 +77,8 @@ impl SceneDocument {
                 entry.building.as_ref().map(|name| buildings.find(name, || path("building")));
             let parent = floor.or(building).transpose()?;
             let extent = entry.pose.zip(entry.size);
-            graph.insert_region(*id, Region { label: label.clone(), extent, parent })
+            graph
+                .insert_region(*id, Region { label: label.clone(), extent, parent })
                 .map_err(|error| refused(path("id"), &error))?;
         }
         for (n, ((id, _), entry)) in rooms.nodes.iter().zip(&self.rooms).enumerate() {
@@ -137,20 +140,23 @@ impl Resolver<'_> {
         name.map(|name| self.ids.find(name, || self.path(n, "support"))).transpose()
     }
 
-    fn room(&self, graph: &SceneGraph, n: usize, support: Option<NodeId>) -> Result<NodeId, SceneError> {
+    fn room(
+        &self,
+        graph: &SceneGraph,
+        n: usize,
+        support: Option<NodeId>,
+    ) -> Result<NodeId, SceneError> {
         if let Some(name) = &self.all[n].room {
             return self.rooms.find(name, || self.path(n, "room"));
         }
         if let Some(below) = support.and_then(|id| graph.object(id)) {
             return Ok(below.room);
         }
-        match self.rooms.nodes.as_slice() {
-            [(only, _)] => Ok(*only),
-            _ => {
-                let problem = "the room is missing; give \"room\" or \"support\"".to_owned();
-                Err(JsonError { path: self.path(n, "room"), problem }.into())
-            }
+        if let [(only, _)] = self.rooms.nodes.as_slice() {
+            return Ok(*only);
         }
+        let problem = "the room is missing; give \"room\" or \"support\"".to_owned();
+        Err(JsonError { path: self.path(n, "room"), problem }.into())
     }
 
     fn insert_object(

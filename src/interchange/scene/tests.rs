@@ -1,3 +1,6 @@
+// Lengths lie on a grid: equality is exact.
+#![allow(clippy::float_cmp)]
+
 use proptest::prelude::*;
 
 use super::*;
@@ -75,8 +78,16 @@ fn what_cannot_be_is_refused_with_its_place() {
     check_refused(&objects(r#"{"label":"a","size":[1,1]}"#), "objects[0].size", "three numbers");
     check_refused(&objects(r#"{"label":"a","room":"b"}"#), "objects[0].room", "no room has");
     check_refused(&objects(r#"{"label":"a","id":"R1"}"#), "objects[0].id", "begin with O");
-    check_refused(&objects(r#"{"label":"a","decay_rate":-1}"#), "objects[0].decay_rate", "0 or more");
-    check_refused(&objects(r#"{"label":"a","pose_source":"held"}"#), "objects[0].pose_source", "held");
+    check_refused(
+        &objects(r#"{"label":"a","decay_rate":-1}"#),
+        "objects[0].decay_rate",
+        "0 or more",
+    );
+    check_refused(
+        &objects(r#"{"label":"a","pose_source":"held"}"#),
+        "objects[0].pose_source",
+        "held",
+    );
     check_refused(&objects(r#"{"label":"a","support":"a"}"#), "objects[0].support", "itself");
     check_refused(
         &objects(r#"{"label":"a","id":"O1"},{"label":"a","id":"O1"}"#),
@@ -88,7 +99,11 @@ fn what_cannot_be_is_refused_with_its_place() {
         "objects[2].support",
         "O0, O1",
     );
-    check_refused(r#"{"rooms":[{"label":"a","access_to":["a"]}]}"#, "rooms[0].access_to[0]", "itself");
+    check_refused(
+        r#"{"rooms":[{"label":"a","access_to":["a"]}]}"#,
+        "rooms[0].access_to[0]",
+        "itself",
+    );
     check_refused(r#"{"rooms":[{"label":"a","size":[1,1,1]}]}"#, "rooms[0]", "no pose");
 }
 

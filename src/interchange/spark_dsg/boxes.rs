@@ -5,8 +5,12 @@ use nalgebra::{Point3, Vector3};
 use crate::geometry::{Pose, Size};
 use crate::interchange::json::{At, JsonError};
 
-/// Thinnest side that is taken.
-const THINNEST_M: f64 = 0.001;
+/// How thick a side becomes that is less than half a micrometre.
+const THIN_M: f64 = 0.001;
+
+fn thick(side_m: f64) -> f64 {
+    if side_m < 0.5e-6 { THIN_M } else { side_m }
+}
 
 /// The `bounding_box` of a node, if it has a valid one.
 pub(super) fn read(attributes: &At<'_>) -> Result<Option<(Pose, Size)>, JsonError> {
@@ -21,14 +25,14 @@ pub(super) fn read(attributes: &At<'_>) -> Result<Option<(Pose, Size)>, JsonErro
     };
     let (centre, sides) = centre_and_sides(&at)?;
     let valid = sides.iter().all(|side| side.is_finite() && *side >= 0.0);
-    if !valid || sides.iter().all(|side| *side < THINNEST_M) {
+    if !valid || sides.iter().all(|side| *side < 0.5e-6) {
         return Ok(None);
     }
     let orientation = match at.optional("world_R_center")? {
         Some(orientation) if turned => orientation.quaternion()?,
         _ => [1.0, 0.0, 0.0, 0.0],
     };
-    let [w, h, d] = sides.map(|side| side.max(THINNEST_M));
+    let [w, h, d] = sides.map(thick);
     let pose = Pose::new(centre, orientation).map_err(|error| at.error(error))?;
     Ok(Some((pose, Size::new(w, h, d).map_err(|error| at.error(error))?)))
 }
@@ -41,7 +45,7 @@ fn centre_and_sides(at: &At<'_>) -> Result<([f64; 3], [f64; 3]), JsonError> {
     }
     let (min, max) = (at.field("min")?.triple()?, at.field("max")?.triple()?);
     let of = |f: fn(f64, f64) -> f64| [0, 1, 2].map(|n| f(min[n], max[n]));
-    Ok((centre.unwrap_or(of(|min, max| f64::midpoint(min, max))), of(|min, max| max - min)))
+    Ok((centre.unwrap_or(of(f64::midpoint)), of(|min, max| max - min)))
 }
 
 /// A box aligned with the axes that grows around what it is given.
@@ -76,7 +80,7 @@ impl Around {
     pub fn finish(self) -> Option<(Pose, Size)> {
         let sides = self.max - self.min;
         let centre = nalgebra::center(&self.min, &self.max);
-        let [w, h, d] = [sides.x, sides.y, sides.z].map(|side| side.max(THINNEST_M));
+        let [w, h, d] = [sides.x, sides.y, sides.z].map(thick);
         Pose::at([centre.x, centre.y, centre.z]).ok().zip(Size::new(w, h, d).ok())
     }
 }

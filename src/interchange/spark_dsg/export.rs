@@ -20,7 +20,7 @@ pub fn export(graph: &SceneGraph) -> Value {
     let rooms = graph.rooms().map(|(id, room)| room_node(graph, id, room));
     let buildings = graph.regions(Layer::Building).map(|(id, building)| {
         let attributes = region(graph, id, building, "SemanticNodeAttributes", json!({}));
-        node(id, BUILDINGS, attributes)
+        node(id, BUILDINGS, &attributes)
     });
     let nodes: Vec<Value> = objects.chain(rooms).chain(buildings).collect();
     let space: Vec<Value> = classes.iter().map(|(label, n)| json!([n, label.as_str()])).collect();
@@ -51,7 +51,7 @@ fn classes(graph: &SceneGraph) -> BTreeMap<&Label, u64> {
     classes
 }
 
-fn node(id: NodeId, layer: u64, attributes: Value) -> Value {
+fn node(id: NodeId, layer: u64, attributes: &Value) -> Value {
     json!({"id": id.bits(), "layer": layer, "partition": 0, "attributes": attributes})
 }
 
@@ -69,7 +69,7 @@ fn object_node(id: NodeId, object: &Object, classes: &BTreeMap<&Label, u64>) -> 
     attributes["mesh_connections"] = json!([]);
     attributes["registered"] = json!(false);
     attributes["world_R_object"] = json!(PoseJson::from(object.pose).orientation);
-    node(id, OBJECTS, attributes)
+    node(id, OBJECTS, &attributes)
 }
 
 fn room_node(graph: &SceneGraph, id: NodeId, room: &Region) -> Value {
@@ -77,7 +77,7 @@ fn room_node(graph: &SceneGraph, id: NodeId, room: &Region) -> Value {
     let own = json!({"floor": floor.map(|floor| floor.to_string())});
     let mut attributes = region(graph, id, room, "RoomNodeAttributes", own);
     attributes["semantic_class_probabilities"] = json!({});
-    node(id, ROOMS, attributes)
+    node(id, ROOMS, &attributes)
 }
 
 fn region(graph: &SceneGraph, id: NodeId, region: &Region, kind: &str, own: Value) -> Value {

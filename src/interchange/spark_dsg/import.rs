@@ -25,6 +25,7 @@ pub fn import(text: &str) -> Result<Import, SparkDsgError> {
     let ids = file.ids()?;
     let mut report = ImportReport::default();
     count_skipped(&root, &file, &ids, &mut report)?;
+    note_version(&root, &mut report);
     let object_boxes = file
         .nodes
         .iter()
@@ -43,6 +44,17 @@ pub fn import(text: &str) -> Result<Import, SparkDsgError> {
     Ok(Import { graph, start: start.unwrap_or_default(), inputs: Vec::new(), report })
 }
 
+/// The newest version that was ever seen; later ones may mean other things.
+fn note_version(root: &At<'_>, report: &mut ImportReport) {
+    let version = root.value.get("SPARK_DSG_header").and_then(|header| header.get("version"));
+    let part = |name| version.and_then(|version| version.get(name)?.as_u64()).unwrap_or(0);
+    let found = [part("major"), part("minor"), part("patch")];
+    if found > [1, 1, 3] {
+        let [major, minor, patch] = found;
+        report.note(format!("format {major}.{minor}.{patch} is newer than 1.1.3, read as that"));
+    }
+}
+
 fn count_skipped(
     root: &At<'_>,
     file: &File<'_>,
@@ -57,6 +69,7 @@ fn count_skipped(
             Kind::Other => report.count("nodes of other layers skipped", 1),
         }
     }
+    report.count("edges of unknown nodes skipped", file.loose_edges);
     if root.optional("mesh")?.is_some() {
         report.count("meshes skipped", 1);
     }
@@ -89,12 +102,11 @@ fn objects(
     let mut objects = Vec::new();
     for (bits, extent) in boxes {
         let (id, node) = (ids[bits], &file.nodes[bits]);
-        let (pose, size) = match extent {
-            Some(extent) => *extent,
-            None => {
-                odd.no_box.push(id);
-                default_box(node)?
-            }
+        let (pose, size) = if let Some(extent) = extent {
+            *extent
+        } else {
+            odd.no_box.push(id);
+            default_box(node)?
         };
         let room = match file.ancestor(*bits, Layer::Room) {
             Some(room) => ids[&room],

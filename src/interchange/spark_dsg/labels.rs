@@ -24,9 +24,8 @@ pub(super) fn read(root: &At<'_>, node: &FileNode<'_>, id: NodeId) -> Result<Lab
     let class = attributes.optional("semantic_label")?.and_then(|at| at.value.as_u64());
     let class = class.filter(|class| *class != NO_LABEL);
     if let Some(name) = class.and_then(|class| in_label_space(root, node, class)) {
-        return Label::new(name).map_err(|error| {
-            attributes.error(format!("its label in the label space: {error}"))
-        });
+        return Label::new(name)
+            .map_err(|error| attributes.error(format!("its label in the label space: {error}")));
     }
     let made = match (id.layer(), class) {
         (Layer::Object, Some(class)) => format!("class_{class}"),

@@ -32,6 +32,8 @@ pub(super) struct File<'a> {
     pub nodes: BTreeMap<u64, FileNode<'a>>,
     /// Every edge once, as (source, target).
     pub edges: Vec<(u64, u64)>,
+    /// How many edges there are that begin or end at no node of the file.
+    pub loose_edges: u64,
     /// For each node those above it, of higher layers.
     above: BTreeMap<u64, BTreeSet<u64>>,
 }
@@ -44,21 +46,23 @@ impl<'a> File<'a> {
             let id = at.field("id")?;
             let (bits, node) = (id.u64()?, node(&at, id.u64()?, &names)?);
             if nodes.insert(bits, node).is_some() {
-                return Err(id.error(format!("{bits} is the id of another node too: ids are unique")));
+                return Err(
+                    id.error(format!("{bits} is the id of another node too: ids are unique"))
+                );
             }
         }
-        let mut file = Self { nodes, edges: Vec::new(), above: BTreeMap::new() };
+        let mut file = Self { nodes, edges: Vec::new(), above: BTreeMap::new(), loose_edges: 0 };
         for at in root.list("edges")? {
-            let end = |name| {
-                let at = at.field(name)?;
-                let bits = at.u64()?;
-                let unknown = || at.error(format!("there is no node {bits}"));
-                file.nodes.get(&bits).map(|node| (bits, node.key.0)).ok_or_else(unknown)
+            let (source, target) = (at.field("source")?.u64()?, at.field("target")?.u64()?);
+            let layer = |bits| file.nodes.get(&bits).map(|node| node.key.0);
+            let (Some(upper), Some(lower)) = (layer(source), layer(target)) else {
+                file.loose_edges += 1;
+                continue;
             };
-            let ((source, upper), (target, lower)) = (end("source")?, end("target")?);
             file.edges.push((source, target));
             if upper != lower {
-                let (above, below) = if upper > lower { (source, target) } else { (target, source) };
+                let (above, below) =
+                    if upper > lower { (source, target) } else { (target, source) };
                 file.above.entry(below).or_default().insert(above);
             }
         }
@@ -70,7 +74,8 @@ impl<'a> File<'a> {
         let mut level = BTreeSet::from([bits]);
         // Each step goes up a layer at least, so this ends.
         while !level.is_empty() {
-            level = level.iter().filter_map(|below| self.above.get(below)).flatten().copied().collect();
+            level =
+                level.iter().filter_map(|below| self.above.get(below)).flatten().copied().collect();
             let found = level.iter().find(|bits| self.nodes[bits].kind == Kind::Known(layer));
             if let Some(found) = found {
                 return Some(*found);
@@ -142,11 +147,18 @@ fn partition(at: &At<'_>) -> Result<u64, JsonError> {
     at.optional("partition")?.map_or(Ok(0), |at| at.u64())
 }
 
-fn node<'a>(at: &At<'a>, bits: u64, names: &BTreeMap<Key, Kind>) -> Result<FileNode<'a>, JsonError> {
+fn node<'a>(
+    at: &At<'a>,
+    bits: u64,
+    names: &BTreeMap<Key, Kind>,
+) -> Result<FileNode<'a>, JsonError> {
     let attributes = at.field("attributes")?;
     // Before partitions, the layers of agents had the letter of the robot as prefix.
     let partition = match at.optional("prefix")? {
-        Some(prefix) => prefix.u64()?,
+        Some(prefix) => match prefix.value.as_str() {
+            Some(letter) => letter.bytes().next().map_or(0, u64::from),
+            None => prefix.u64()?,
+        },
         None => partition(at)?,
     };
     let key = (at.field("layer")?.u64()?, partition);

@@ -1,20 +1,29 @@
+// Lengths lie on a grid: equality is exact.
+#![allow(clippy::float_cmp)]
+
 use proptest::prelude::*;
 
 use super::*;
-use crate::graph::{Layer, NodeId, Object, PoseSource, SceneGraph};
+use crate::graph::{Label, Layer, NodeId, Object, PoseSource, SceneGraph};
 use crate::interchange::testing::{id, scene_graph, shared};
 use crate::interchange::{Import, MOVABLE_DECAY_RATE};
 use crate::time::Stamp;
 
-/// Written by the PyPI package; see `tests/python/make_spark_dsg.py`.
+/// Written by the `PyPI` package; see `tests/python/make_spark_dsg.py`.
 const NEWEST: &str = include_str!("../../../tests/data/spark_dsg_1.1.3.json");
 
 #[test]
 fn a_file_of_the_newest_version_is_read() {
     let Import { graph, start, report, .. } = import(NEWEST).unwrap();
-    let (table, mug, rug) =
-        (graph.object(id("O1")).unwrap(), graph.object(id("O2")).unwrap(), graph.object(id("O5")).unwrap());
-    assert_eq!([&table.label, &mug.label, &rug.label].map(|l| l.as_str()), ["table", "mug", "red rug"]);
+    let (table, mug, rug) = (
+        graph.object(id("O1")).unwrap(),
+        graph.object(id("O2")).unwrap(),
+        graph.object(id("O5")).unwrap(),
+    );
+    assert_eq!(
+        [&table.label, &mug.label, &rug.label].map(Label::as_str),
+        ["table", "mug", "red rug"]
+    );
     assert_eq!([table.room, mug.room, rug.room], [id("R0"), id("R0"), id("R1")]);
     assert_eq!(table.size.metres(), [2.0, 1.0, 0.8]);
     let quarter = std::f64::consts::FRAC_1_SQRT_2;
@@ -23,7 +32,7 @@ fn a_file_of_the_newest_version_is_read() {
     assert_eq!(start, Stamp::from_nanos(1_767_571_200_000_000_001));
     assert_eq!((rug.last_observed, rug.size.metres()), (Stamp::EPOCH, [0.2; 3]));
     let (kitchen, other) = (graph.region(id("R0")).unwrap(), graph.region(id("R1")).unwrap());
-    assert_eq!([&kitchen.label, &other.label].map(|l| l.as_str()), ["kitchen", "room 1"]);
+    assert_eq!([&kitchen.label, &other.label].map(Label::as_str), ["kitchen", "room 1"]);
     assert_eq!(kitchen.extent.unwrap().1.metres(), [4.0, 4.0, 2.5]);
     // Only one place belongs to it: the box is that point, a millimetre thick.
     assert_eq!(other.extent.unwrap().0.position(), [6.0, 1.0, 1.0]);
@@ -58,7 +67,9 @@ fn without_held(graph: &SceneGraph) -> SceneGraph {
         let object = left.object(*id).unwrap().clone();
         left.update_object(*id, Object { support: None, ..object }).unwrap();
     }
-    held.into_iter().for_each(|id| drop(left.remove_object(id).unwrap()));
+    for id in held {
+        left.remove_object(id).unwrap();
+    }
     left
 }
 
@@ -136,7 +147,19 @@ fn what_cannot_be_is_refused_with_its_place() {
     check("{}", "\"nodes\" is missing");
     check(&small(r#"{"id": 1.5}"#, ""), "nodes[0].id: 1.5 must be a whole number");
     check(&small(&format!("{OBJECT}, {OBJECT}"), ""), "nodes[1].id");
-    check(&small(OBJECT, r#"{"source": 1, "target": 2}"#), "edges[0].source: there is no node 1");
+    check(&small(OBJECT, r#"{"source": -1, "target": 2}"#), "edges[0].source: -1");
     check(&small(&OBJECT.replace("[1, 1, 0]", "[1, 1]"), ""), "nodes[0].attributes.position");
     check(&small(&OBJECT.replace("mug", "\\u0007"), ""), "control characters");
+}
+
+#[test]
+fn what_is_newer_or_leads_nowhere_is_told() {
+    let newer = small(OBJECT, r#"{"source": 1, "target": 2}"#).replacen(
+        '{',
+        r#"{"SPARK_DSG_header": {"version": {"major": 1, "minor": 2}}, "#,
+        1,
+    );
+    let report = import(&newer).unwrap().report;
+    assert_eq!(report.counts["edges of unknown nodes skipped"], 1);
+    assert!(report.notes[0].contains("1.2.0 is newer"), "{report}");
 }

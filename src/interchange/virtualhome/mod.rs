@@ -1,4 +1,4 @@
-//! Import of a VirtualHome graph: the apartment as the Unity simulator describes it.
+//! Import of a `VirtualHome` graph: the apartment as the Unity simulator describes it.
 //!
 //! Rooms are the nodes of category `Rooms`; objects all others with a box, except characters
 //! and, unless [`Options::structure`] is set, floors, ceilings and walls. Ids are kept: node 41
@@ -46,7 +46,7 @@ pub struct Options {
     pub start: Stamp,
 }
 
-/// Why a VirtualHome graph was refused.
+/// Why a `VirtualHome` graph was refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum VirtualHomeError {
     /// A value that cannot be.
@@ -73,7 +73,7 @@ struct Relations {
     between: BTreeMap<u64, Vec<u64>>,
 }
 
-/// Reads a VirtualHome graph: `{"nodes": […], "edges": […]}`.
+/// Reads a `VirtualHome` graph: `{"nodes": […], "edges": […]}`.
 pub fn import(text: &str, options: &Options) -> Result<Import, VirtualHomeError> {
     let value = json::parse(text)?;
     let root = At::root(&value);
@@ -188,7 +188,8 @@ fn room_of(
             Ok(around)
         }
         several => {
-            report.note(format!("{id} is inside {} rooms: the smallest id is taken", several.len()));
+            report
+                .note(format!("{id} is inside {} rooms: the smallest id is taken", several.len()));
             Ok(several.iter().min().and_then(|n| node_id(Layer::Room, *n)))
         }
     }

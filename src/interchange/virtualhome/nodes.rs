@@ -1,4 +1,4 @@
-//! The nodes of a VirtualHome graph.
+//! The nodes of a `VirtualHome` graph.
 
 use std::collections::BTreeMap;
 

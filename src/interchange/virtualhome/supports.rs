@@ -6,7 +6,7 @@ use super::Relations;
 use crate::graph::{NodeId, Placement, SceneGraph};
 use crate::interchange::{ImportReport, counted};
 
-/// Sets the supports of all objects in `taken` (VirtualHome number to id).
+/// Sets the supports of all objects in `taken` (`VirtualHome` number to id).
 pub(super) fn connect(
     graph: &mut SceneGraph,
     taken: &BTreeMap<u64, NodeId>,
