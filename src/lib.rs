@@ -1,17 +1,20 @@
 //! Event-sourced, record-and-replay processor for dynamic 3D scene graphs.
-pub mod time;
-pub mod geometry;
 mod bytes;
-pub mod graph;
 pub mod change;
-pub mod event;
-pub mod modality;
-pub mod updater;
-pub mod document;
-pub mod history;
-pub mod wire;
-pub mod container;
-pub mod recording;
-pub mod interchange;
-pub mod snapshot;
 pub mod cli;
+pub mod container;
+pub mod document;
+pub mod event;
+pub mod geometry;
+pub mod graph;
+pub mod history;
+pub mod interchange;
+pub mod modality;
+pub mod recording;
+pub mod snapshot;
+pub mod time;
+pub mod updater;
+pub mod wire;
+
+#[cfg(test)]
+mod testing;

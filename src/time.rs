@@ -269,7 +269,8 @@ mod tests {
 
     #[test]
     fn what_is_no_point_in_time_is_refused_with_the_forms() {
-        for text in ["", "soon", "#", "c", "#-1", "12", "3y", "1.2.3s", ".s", "s", "1969-01-01T00:00:00Z"]
+        for text in
+            ["", "soon", "#", "c", "#-1", "12", "3y", "1.2.3s", ".s", "s", "1969-01-01T00:00:00Z"]
         {
             let parsed = text.parse::<At>();
             assert!(text == "12" || parsed.is_err(), "{text}: {parsed:?}");

@@ -19,11 +19,11 @@ mod world;
 
 pub use evidence::EvidenceRef;
 pub(crate) use planner::topological_pose;
-pub(crate) use resolve::room_around;
 pub use planner::{Plan, PlanConfig, plan};
 pub use primitive::{Departure, Primitive, Sighting, Undo};
 pub use record::{Action, ChangeRecord, Claim, Modality, NodeRef, Occurred, Outcome};
 pub use rejection::Rejection;
+pub(crate) use resolve::room_around;
 pub use resolve::{locate, locate_room};
 pub use transaction::{Cause, Step, Transaction, TransactionError};
 pub use world::{World, WorldError};

@@ -138,11 +138,8 @@ fn left_behind(
         // Held together and then gone together.
         return Some(Primitive::Remove { id: above, to: Departure::Gone, at });
     }
-    let to = Placement {
-        support: None,
-        pose_source: PoseSource::Topological,
-        ..Placement::of(object)
-    };
+    let to =
+        Placement { support: None, pose_source: PoseSource::Topological, ..Placement::of(object) };
     Some(Primitive::Move { id: above, to })
 }
 
@@ -189,8 +186,7 @@ fn carried(
         PoseSource::Measured if measured => PoseSource::Measured,
         _ => PoseSource::Topological,
     };
-    let along =
-        Placement { room: to.room, support: object.support, pose, pose_source, at: to.at };
+    let along = Placement { room: to.room, support: object.support, pose, pose_source, at: to.at };
     Ok(if object.is_held() {
         Primitive::Add { id: above, node: Node::Object(placed(object, &along)) }
     } else {

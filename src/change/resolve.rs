@@ -19,11 +19,7 @@ pub(super) struct Hints<'a> {
 ///
 /// # Errors
 /// [`Rejection`] if nothing or several things answer to the name.
-pub fn locate(
-    world: &World,
-    wanted: &NodeRef,
-    room: Option<NodeId>,
-) -> Result<NodeId, Rejection> {
+pub fn locate(world: &World, wanted: &NodeRef, room: Option<NodeId>) -> Result<NodeId, Rejection> {
     find_object(world, wanted, &Hints { room, ..Hints::default() }).map(|found| found.id)
 }
 
@@ -108,11 +104,7 @@ fn find(
 
 /// Those of `named` on the support and in the room that are hinted at; the words for it if that
 /// helped. A hint that fits none leaves none: the claim is about something else.
-fn narrow(
-    world: &World,
-    named: &[NodeId],
-    hints: &Hints<'_>,
-) -> (Vec<NodeId>, Option<String>) {
+fn narrow(world: &World, named: &[NodeId], hints: &Hints<'_>) -> (Vec<NodeId>, Option<String>) {
     let fits = |id: &&NodeId| {
         let Some(object) = world.known(**id) else { return false };
         hints.room.is_none_or(|room| object.room == room)

@@ -73,10 +73,7 @@ impl Diff {
     fn tolerance(&self) -> anyhow::Result<Tolerance> {
         let valid = |value: f64| value.is_finite() && value >= 0.0;
         if valid(self.tolerance) && valid(self.angle_tolerance) {
-            return Ok(Tolerance {
-                distance_m: self.tolerance,
-                angle_rad: self.angle_tolerance,
-            });
+            return Ok(Tolerance { distance_m: self.tolerance, angle_rad: self.angle_tolerance });
         }
         Err(UsageError("a tolerance must be a number ≥ 0".to_owned()).into())
     }

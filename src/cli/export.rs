@@ -51,9 +51,7 @@ pub fn run(args: &Export, out: &mut Output) -> anyhow::Result<Outcome> {
     let state = state_at(&recording, args.at)?;
     let graph = state.graph();
     let text = match args.format {
-        Format::Scene => {
-            serde_json::to_string_pretty(&SceneDocument::of(graph, state.at))? + "\n"
-        }
+        Format::Scene => serde_json::to_string_pretty(&SceneDocument::of(graph, state.at))? + "\n",
         Format::SparkDsg => serde_json::to_string_pretty(&spark_dsg::export(graph))? + "\n",
         Format::Dot => dot::export(graph),
     };

@@ -14,7 +14,9 @@ use super::replay::state_at;
 use super::source::{self, is_mcap, text};
 use crate::event::Event;
 use crate::graph::SceneGraph;
-use crate::interchange::{Import as Imported, ImportReport, actions, scene, spark_dsg, virtualhome};
+use crate::interchange::{
+    Import as Imported, ImportReport, actions, scene, spark_dsg, virtualhome,
+};
 use crate::recording::{Recorder, RecorderOptions, Seal};
 use crate::time::{At, Stamp};
 use crate::updater::Config;
@@ -130,8 +132,10 @@ pub fn run(args: &Import, out: &mut Output) -> anyhow::Result<Outcome> {
             record(imported, &args.target, out)
         }
         Format::Virtualhome(args) => {
-            let options =
-                virtualhome::Options { structure: args.structure, ..virtualhome::Options::default() };
+            let options = virtualhome::Options {
+                structure: args.structure,
+                ..virtualhome::Options::default()
+            };
             let imported = read(&args.file, |text| virtualhome::import(text, &options))?;
             record(imported, &args.target, out)
         }
@@ -147,7 +151,7 @@ fn read<E: std::error::Error + Send + Sync + 'static>(
 }
 
 fn import_actions(args: &Actions, out: &mut Output) -> anyhow::Result<Outcome> {
-    let graph = args.graph.as_deref().map(base_graph).transpose()?;
+    let graph = args.graph.as_deref().map(|path| base_graph(path, args.start)).transpose()?;
     let places = args.places.as_deref().map(text).transpose()?;
     let initial = args.initial.as_deref().map(text).transpose()?;
     let name = args.file.file_stem().unwrap_or_default().to_string_lossy();
@@ -160,14 +164,15 @@ fn import_actions(args: &Actions, out: &mut Output) -> anyhow::Result<Outcome> {
         name: &name,
     };
     let files = [Some(&args.file), args.places.as_ref(), args.initial.as_ref()];
-    let files: Vec<String> = files.iter().flatten().map(|file| file.display().to_string()).collect();
+    let files: Vec<String> =
+        files.iter().flatten().map(|file| file.display().to_string()).collect();
     let imported =
         actions::import(&text(&args.file)?, &options).with_context(|| files.join(", "))?;
     record(imported, &args.target, out)
 }
 
 /// The graph that actions happen in, whatever it is written in.
-fn base_graph(path: &Path) -> anyhow::Result<SceneGraph> {
+fn base_graph(path: &Path, start: Stamp) -> anyhow::Result<SceneGraph> {
     if is_mcap(path) {
         let recording = source::open(path)?;
         let state = state_at(&recording, At::End)?;
@@ -178,7 +183,8 @@ fn base_graph(path: &Path) -> anyhow::Result<SceneGraph> {
     // VirtualHome graphs have `nodes` and `edges`, our own scenes have `rooms` and `objects`.
     let looks_like_virtualhome = text.contains("\"nodes\"") && text.contains("\"edges\"");
     let imported = if looks_like_virtualhome {
-        virtualhome::import(&text, &virtualhome::Options::default()).map_err(anyhow::Error::new)
+        let options = virtualhome::Options { start, ..virtualhome::Options::default() };
+        virtualhome::import(&text, &options).map_err(anyhow::Error::new)
     } else {
         scene::import(&text).map_err(anyhow::Error::new)
     };
@@ -187,8 +193,9 @@ fn base_graph(path: &Path) -> anyhow::Result<SceneGraph> {
 
 fn record(imported: Imported, target: &Target, out: &mut Output) -> anyhow::Result<Outcome> {
     let config = match &target.config {
-        Some(path) => Config::from_json(&text(path)?)
-            .with_context(|| path.display().to_string())?,
+        Some(path) => {
+            Config::from_json(&text(path)?).with_context(|| path.display().to_string())?
+        }
         None => Config::default(),
     };
     let mut recorder = Recorder::create(&target.out, config, &RecorderOptions::default())?;

@@ -53,8 +53,7 @@ struct ChannelDocument {
 pub fn run(args: &Info, out: &mut Output) -> anyhow::Result<Outcome> {
     let recording = source::open(&args.recording.path)?;
     let summary = recording.summary();
-    let outcome =
-        if summary.trouble.is_empty() { Outcome::Clean } else { Outcome::Findings };
+    let outcome = if summary.trouble.is_empty() { Outcome::Clean } else { Outcome::Findings };
     if args.json {
         out.json(&document(summary))?;
     } else {

@@ -155,8 +155,9 @@ impl Ingest {
             return Ok(Recorder::append(&self.out, &options)?);
         }
         let config = match &self.config {
-            Some(path) => Config::from_json(&text(path)?)
-                .with_context(|| path.display().to_string())?,
+            Some(path) => {
+                Config::from_json(&text(path)?).with_context(|| path.display().to_string())?
+            }
             None => Config::default(),
         };
         let initial = self.graph.as_ref().map(initial_graph).transpose()?;

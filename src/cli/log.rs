@@ -95,7 +95,13 @@ pub fn print(record: &ChangeRecord, out: &mut Output) -> anyhow::Result<()> {
         (Action::Removed, true) => "picked up",
         (action, _) => action.as_str(),
     };
-    let mut line = format!("c{:<5} {}  {:10} {verb:9} {}", record.seq, record.at, claim.modality.as_str(), claim.object);
+    let mut line = format!(
+        "c{:<5} {}  {:10} {verb:9} {}",
+        record.seq,
+        record.at,
+        claim.modality.as_str(),
+        claim.object
+    );
     let mut part = |word: &str, node: &Option<NodeRef>| {
         if let Some(node) = node {
             line.push_str(&format!(" {word} {node}"));

@@ -64,7 +64,10 @@ fn print_graph(graph: &SceneGraph, now: Stamp, out: &mut Output) -> anyhow::Resu
         let heading = out.paint(Style::Bold, &format!("{} {id}", room.label));
         let mut about = Vec::new();
         if let Some(floor) = graph.ancestor(id, Layer::Floor) {
-            about.push(format!("on {} {floor}", graph.region(floor).map_or("", |f| f.label.as_str())));
+            about.push(format!(
+                "on {} {floor}",
+                graph.region(floor).map_or("", |f| f.label.as_str())
+            ));
         }
         let access: Vec<String> = graph.access_from(id).map(|room| name(graph, room)).collect();
         if !access.is_empty() {
@@ -103,10 +106,7 @@ fn print_object(
     };
     let belief = if fresh < 0.5 { out.paint(Style::Yellow, &belief) } else { belief };
     let source = out.paint(Style::Dim, object.pose_source.as_str());
-    writeln!(
-        out,
-        "  {who:28} {belief}  ({x:7.2}, {y:7.2}, {z:6.2})  {support:28} {source}"
-    )?;
+    writeln!(out, "  {who:28} {belief}  ({x:7.2}, {y:7.2}, {z:6.2})  {support:28} {source}")?;
     Ok(())
 }
 

@@ -59,8 +59,9 @@ struct DifferenceDocument {
 pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     let recording = source::open(&args.recording.path)?;
     let config = match &args.config {
-        Some(path) => Config::from_json(&text(path)?)
-            .with_context(|| path.display().to_string())?,
+        Some(path) => {
+            Config::from_json(&text(path)?).with_context(|| path.display().to_string())?
+        }
         None => recording.meta().map_or_else(Config::default, |meta| meta.config.clone()),
     };
     let options = RecorderOptions::default();
@@ -70,9 +71,7 @@ pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     let result = reprocess(&recording, config, &mut |input, _| {
         progress.inc(1);
         match &mut recorder {
-            Some(recorder) => {
-                recorder.record(input.published, input.event.clone()).map(drop)
-            }
+            Some(recorder) => recorder.record(input.published, input.event.clone()).map(drop),
             None => Ok::<_, RecordError>(()),
         }
     })?;

@@ -69,8 +69,7 @@ pub fn run(args: &Snapshot, out: &mut Output) -> anyhow::Result<Outcome> {
         progress.inc(1);
     }
     progress.finish_and_clear();
-    let outcome =
-        if document.failed.is_empty() { Outcome::Clean } else { Outcome::Findings };
+    let outcome = if document.failed.is_empty() { Outcome::Clean } else { Outcome::Findings };
     if args.json {
         out.json(&document)?;
     } else {
@@ -82,7 +81,8 @@ pub fn run(args: &Snapshot, out: &mut Output) -> anyhow::Result<Outcome> {
 impl Snapshot {
     /// Two recordings of one name would share a golden file.
     fn check_names(&self) -> anyhow::Result<()> {
-        let mut names: Vec<PathBuf> = self.recordings.iter().map(|path| self.golden(path)).collect();
+        let mut names: Vec<PathBuf> =
+            self.recordings.iter().map(|path| self.golden(path)).collect();
         names.sort();
         match names.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(pair) => Err(UsageError(format!(

@@ -56,7 +56,8 @@ pub fn warn(recording: &Recording) -> Outcome {
         let _ = writeln!(stderr, "warning: {}", plain(line));
     }
     if trouble.len() > 10 {
-        let _ = writeln!(stderr, "warning: and {} more; see `scenefold verify`", trouble.len() - 10);
+        let _ =
+            writeln!(stderr, "warning: and {} more; see `scenefold verify`", trouble.len() - 10);
     }
     if trouble.is_empty() { Outcome::Clean } else { Outcome::Findings }
 }
@@ -65,4 +66,3 @@ pub fn warn(recording: &Recording) -> Outcome {
 pub fn threads() -> usize {
     std::thread::available_parallelism().map_or(1, |n| n.get().min(8))
 }
-

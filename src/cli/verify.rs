@@ -72,7 +72,9 @@ pub fn run(args: &Verify, out: &mut Output) -> anyhow::Result<Outcome> {
         let found = verified.chain.to_string();
         if *expected != found {
             out.flush()?;
-            bail!("the chain is {found}, not {expected}: this is another recording, or an edited one");
+            bail!(
+                "the chain is {found}, not {expected}: this is another recording, or an edited one"
+            );
         }
     }
     Ok(if verified.status == Status::Intact { Outcome::Clean } else { Outcome::Findings })

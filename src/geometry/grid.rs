@@ -18,7 +18,9 @@ pub enum GeometryError {
         value: f64,
     },
     /// A quaternion of (nearly) zero length names no rotation.
-    #[error("the orientation (w {w}, x {x}, y {y}, z {z}) is no rotation: its length is zero or not finite")]
+    #[error(
+        "the orientation (w {w}, x {x}, y {y}, z {z}) is no rotation: its length is zero or not finite"
+    )]
     Orientation {
         /// Scalar part.
         w: f64,

@@ -26,8 +26,7 @@ impl Pose {
     /// A pose from a position in metres and a quaternion (w, x, y, z) of any non-zero length.
     pub fn new(position_m: [f64; 3], wxyz: [f64; 4]) -> Result<Self, GeometryError> {
         let [x, y, z] = position_m;
-        let position_um =
-            [micrometres("x", x)?, micrometres("y", y)?, micrometres("z", z)?];
+        let position_um = [micrometres("x", x)?, micrometres("y", y)?, micrometres("z", z)?];
         Ok(Self { position_um, orientation_e7: quantised(wxyz)? })
     }
 

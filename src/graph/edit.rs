@@ -79,8 +79,7 @@ impl SceneGraph {
             return Err(GraphError::StillSupports { id, count: slot.resting });
         }
         let before = slot.object.clone();
-        let held =
-            Object { pose_source: PoseSource::Held, last_observed: at, ..before.clone() };
+        let held = Object { pose_source: PoseSource::Held, last_observed: at, ..before.clone() };
         self.replace_object(id, &before, held);
         Ok(())
     }
@@ -148,11 +147,7 @@ impl SceneGraph {
     /// Adds a room, floor or building under a new id.
     pub fn insert_region(&mut self, id: NodeId, region: Region) -> Result<(), GraphError> {
         if id.layer() == Layer::Object {
-            return Err(GraphError::WrongLayer {
-                id,
-                found: Layer::Object,
-                expected: Layer::Room,
-            });
+            return Err(GraphError::WrongLayer { id, found: Layer::Object, expected: Layer::Room });
         }
         if self.region(id).is_some() {
             return Err(GraphError::DuplicateNode { id });

@@ -44,9 +44,9 @@ impl SceneGraph {
 
     /// Regions of one layer, in order of id; none for [`Layer::Object`].
     pub fn regions(&self, layer: Layer) -> impl Iterator<Item = (NodeId, &Region)> {
-        self.region_slots(layer)
-            .into_iter()
-            .flat_map(move |slots| slots.iter().map(move |(i, slot)| (known(layer, i), &slot.region)))
+        self.region_slots(layer).into_iter().flat_map(move |slots| {
+            slots.iter().map(move |(i, slot)| (known(layer, i), &slot.region))
+        })
     }
 
     /// Rooms, in order of id.
@@ -82,7 +82,8 @@ impl SceneGraph {
     /// What rests on or lies in `id`, directly or on something that does; lower things first.
     pub fn resting_on(&self, id: NodeId) -> Vec<NodeId> {
         let direct = |below: NodeId| {
-            let some = self.objects.get(below.index()).is_some_and(|s| s.resting + s.resting_held > 0);
+            let some =
+                self.objects.get(below.index()).is_some_and(|s| s.resting + s.resting_held > 0);
             self.all_objects()
                 .take_while(move |_| some)
                 .filter(move |(_, object)| object.support == Some(below))

@@ -13,8 +13,8 @@
 
 pub mod actions;
 pub mod dot;
-pub mod lines;
 mod json;
+pub mod lines;
 mod report;
 pub mod scene;
 pub mod spark_dsg;

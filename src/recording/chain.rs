@@ -38,8 +38,7 @@ impl Chain {
     /// Takes the next event message.
     pub fn add(&mut self, topic: &str, order: u64, log_time: u64, publish_time: u64, data: &[u8]) {
         let mut head = [0; 40];
-        let fields =
-            [topic.len() as u64, order, log_time, publish_time, data.len() as u64];
+        let fields = [topic.len() as u64, order, log_time, publish_time, data.len() as u64];
         for (slot, field) in head.chunks_exact_mut(8).zip(fields) {
             slot.copy_from_slice(&field.to_le_bytes());
         }

@@ -33,11 +33,11 @@ mod summary;
 mod verify;
 
 pub use chain::{Chain, Link};
-pub use events::{Walk, WalkError};
-pub use point::{Point, PointError};
 pub use checkpoint::Checkpoint;
+pub use events::{Walk, WalkError};
 pub use meta::{FORMAT_VERSION, Meta, Seal};
 pub use open::{OpenError, Recording};
+pub use point::{Point, PointError};
 pub use recorder::{RecordError, Recorded, Recorder, RecorderOptions, SyncPolicy};
 pub use recover::{LostEvents, Recovered, recover};
 pub use reprocess::{Difference, Reprocessed, reprocess};

@@ -134,11 +134,9 @@ impl Recorder {
             return Err(RecordError::NotAFolder { path: path.to_owned() });
         }
         let recording = Recording::open(path)?;
-        let End { updater, chain, missing } =
-            recording.resume().map_err(|what| RecordError::Damaged {
-                path: path.to_owned(),
-                what: what.to_string(),
-            })?;
+        let End { updater, chain, missing } = recording.resume().map_err(|what| {
+            RecordError::Damaged { path: path.to_owned(), what: what.to_string() }
+        })?;
         let file = next_segment(path).map_err(|error| io_error(path, error))?;
         let first_order = updater.order() + 1 - missing.len() as u64;
         let meta = Meta::new(updater.config().clone(), first_order, chain);

@@ -195,8 +195,7 @@ impl<'r> Copy<'r> {
         segment: &Segment,
         message: &RawMessage<'_>,
     ) -> Result<(), RecordError> {
-        let usable =
-            Checkpoint::decode(message.data).and_then(|found| Ok((found.world()?, found)));
+        let usable = Checkpoint::decode(message.data).and_then(|found| Ok((found.world()?, found)));
         let (world, checkpoint) = match usable {
             Ok(usable) => usable,
             Err(why) => {

@@ -67,13 +67,13 @@ pub fn reprocess<E>(
 ) -> Result<Reprocessed, ReprocessError<E>> {
     let mut again = Again::new(Updater::new(config));
     let mut failure = None;
-    recording.visit_events(Walk::Everything, (1, u64::MAX), &mut |logged| {
-        match again.take(logged, sink) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                failure = Some(error);
-                ControlFlow::Break(())
-            }
+    recording.visit_events(Walk::Everything, (1, u64::MAX), &mut |logged| match again
+        .take(logged, sink)
+    {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(error) => {
+            failure = Some(error);
+            ControlFlow::Break(())
         }
     })?;
     match failure {
@@ -208,17 +208,13 @@ impl Renumber {
 fn same(recorded: &[Event], now: &[Event]) -> bool {
     recorded.len() == now.len()
         && recorded.iter().zip(now).all(|(recorded, now)| match (recorded, now) {
-            (Event::Change(a), Event::Change(b)) => {
-                *a == ChangeRecord { seq: a.seq, ..b.clone() }
-            }
+            (Event::Change(a), Event::Change(b)) => *a == ChangeRecord { seq: a.seq, ..b.clone() },
             (Event::Transaction(a), Event::Transaction(b)) => {
                 a.at == b.at
                     && a.steps.len() == b.steps.len()
                     && a.steps.iter().zip(&b.steps).all(|(a, b)| {
-                        let by_change = matches!(
-                            (&a.cause, &b.cause),
-                            (Cause::Change(_), Cause::Change(_))
-                        );
+                        let by_change =
+                            matches!((&a.cause, &b.cause), (Cause::Change(_), Cause::Change(_)));
                         a.primitive == b.primitive && (by_change || a.cause == b.cause)
                     })
             }

@@ -74,9 +74,10 @@ impl Recording {
                 let (at, published) = (raw.log_time, raw.publish_time);
                 chain.add(&raw.topic.name(), raw.order, at, published, raw.data);
             }
-            let taken = decode(segment, raw).map_err(|error| error.to_string()).and_then(|logged| {
-                again.take(&logged, &mut nowhere).map_err(|error| error.to_string())
-            });
+            let taken =
+                decode(segment, raw).map_err(|error| error.to_string()).and_then(|logged| {
+                    again.take(&logged, &mut nowhere).map_err(|error| error.to_string())
+                });
             match taken {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(error) => {

@@ -13,9 +13,7 @@ use super::chain::{Chain, Link};
 use super::checkpoint::Checkpoint;
 use super::meta::{Meta, Seal};
 use super::recorder::{RecordError, RecorderOptions, SyncPolicy};
-use crate::container::{
-    ChannelHandle, ChannelSpec, ChunkClass, LogOptions, LogWriter, SchemaSpec,
-};
+use crate::container::{ChannelHandle, ChannelSpec, ChunkClass, LogOptions, LogWriter, SchemaSpec};
 use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::graph::StateHash;
 use crate::wire;
@@ -50,10 +48,13 @@ type SensorChannel = (String, String, String, Vec<u8>);
 
 impl Sink {
     /// Creates the file, which must not exist, and writes what it says of itself.
-    pub fn create(path: &Path, meta: &Meta, options: &RecorderOptions) -> Result<Self, RecordError> {
+    pub fn create(
+        path: &Path,
+        meta: &Meta,
+        options: &RecorderOptions,
+    ) -> Result<Self, RecordError> {
         let failed = |error: io::Error| RecordError::Io { path: path.to_owned(), error };
-        let file =
-            OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
+        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
         if options.sync != SyncPolicy::Never {
             sync_folder(path).map_err(failed)?;
         }

@@ -90,8 +90,7 @@ impl Recording {
         let entry = entry.ok_or("it is not in the file any more")?;
         let mut buffer = crate::container::ChunkBuffer::new();
         segment.log.read_chunk_into(entry, &mut buffer).map_err(|damage| damage.to_string())?;
-        let is_checkpoint =
-            |channel: u16| segment.topics.get(&channel) == Some(&Topic::Checkpoint);
+        let is_checkpoint = |channel: u16| segment.topics.get(&channel) == Some(&Topic::Checkpoint);
         let message = buffer.messages().find(|message| is_checkpoint(message.channel));
         let message = message.ok_or("its chunk holds none")?;
         Checkpoint::decode(message.data).map_err(|error| error.to_string())
@@ -161,9 +160,10 @@ impl<'r> Fold<'r> {
     }
 
     fn load(&mut self, at: &CheckpointRef) -> bool {
-        let loaded = self.recording.checkpoint(at).and_then(|checkpoint| {
-            checkpoint.world().map_err(|error| error.to_string())
-        });
+        let loaded = self
+            .recording
+            .checkpoint(at)
+            .and_then(|checkpoint| checkpoint.world().map_err(|error| error.to_string()));
         match loaded {
             Ok(world) => {
                 (self.world, self.order, self.time) = (world, at.order, at.at);

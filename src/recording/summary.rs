@@ -65,7 +65,12 @@ impl Recording {
         }
         let channels: Vec<ChannelSummary> = channels
             .into_iter()
-            .map(|((topic, schema, encoding), count)| ChannelSummary { topic, schema, encoding, count })
+            .map(|((topic, schema, encoding), count)| ChannelSummary {
+                topic,
+                schema,
+                encoding,
+                count,
+            })
             .collect();
         let on = |topic: &Topic| {
             let name = topic.name();

@@ -200,8 +200,11 @@ impl<'r> Check<'r> {
     fn begin(&mut self, n: usize, segment: &Segment) {
         let (Some(meta), true) = (&segment.meta, n > 0) else { return };
         if meta.chain != self.chain.link() && !self.broken {
-            let what = format!("its chain goes on from {}, the segment before ends with {}",
-                meta.chain, self.chain.link());
+            let what = format!(
+                "its chain goes on from {}, the segment before ends with {}",
+                meta.chain,
+                self.chain.link()
+            );
             // After a crash the segment before may lack what was never acknowledged.
             let torn = !self.recording.segments[n - 1].log.is_finished();
             let status = if torn { Status::Truncated } else { Status::Tampered };
@@ -219,10 +222,8 @@ impl<'r> Check<'r> {
         if *topic == Topic::Checkpoint {
             return self.checkpoint(segment, message.data);
         }
-        let (event, sensor) = (
-            segment.events.contains(&message.channel),
-            segment.sensors.contains(&message.channel),
-        );
+        let (event, sensor) =
+            (segment.events.contains(&message.channel), segment.sensors.contains(&message.channel));
         if !event && !sensor {
             return;
         }

@@ -99,11 +99,7 @@ impl Updater {
     ///
     /// Log time never runs backwards: an input that is stamped earlier than the one before it is
     /// logged at the time of that one, and keeps its own stamp as `published`.
-    pub fn update(
-        &mut self,
-        published: Stamp,
-        input: Event,
-    ) -> Result<Vec<Logged>, UpdateError> {
+    pub fn update(&mut self, published: Stamp, input: Event) -> Result<Vec<Logged>, UpdateError> {
         self.check(&input)?;
         self.at = self.at.max(published);
         let at = self.at;

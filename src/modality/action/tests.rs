@@ -36,7 +36,9 @@ fn house() -> SceneGraph {
     for (room, name, x) in [("R1", "kitchen", 0.0), ("R2", "bedroom", 5.0)] {
         let extent = (Pose::at([x, 0.0, 1.0]).unwrap(), Size::new(4.0, 4.0, 2.0).unwrap());
         let label = Label::new(name).unwrap();
-        graph.insert_region(id(room), Region { label, extent: Some(extent), parent: None }).unwrap();
+        graph
+            .insert_region(id(room), Region { label, extent: Some(extent), parent: None })
+            .unwrap();
     }
     for (node, name, room, support, at) in [
         ("O1", "table", "R1", None, [1.0, 0.0, 0.5]),
