@@ -1,7 +1,7 @@
 //! `scenefold ingest`
 
 use std::io::{self, BufRead, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use anyhow::Context;
@@ -160,7 +160,7 @@ impl Ingest {
             }
             None => Config::default(),
         };
-        let initial = self.graph.as_ref().map(initial_graph).transpose()?;
+        let initial = self.graph.as_deref().map(initial_graph).transpose()?;
         let mut recorder = Recorder::create(&self.out, config, &options)?;
         if let Some((graph, at)) = initial {
             recorder.record(at, Event::InitialGraph(graph))?;
@@ -169,7 +169,7 @@ impl Ingest {
     }
 }
 
-fn initial_graph(path: &PathBuf) -> anyhow::Result<(crate::graph::SceneGraph, Stamp)> {
+fn initial_graph(path: &Path) -> anyhow::Result<(crate::graph::SceneGraph, Stamp)> {
     if is_mcap(path) {
         let recording = source::open(path)?;
         let state = state_at(&recording, At::End)?;

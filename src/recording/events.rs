@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use super::open::{Recording, Segment};
 use crate::container::{LogError, MessageFilter};
-use crate::event::{Event, Logged, Role, SensorMessage, Topic};
+use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::history::EventLog;
 use crate::time::Stamp;
 use crate::wire;
@@ -184,9 +183,4 @@ pub(super) fn sensor_message(segment: &Segment, raw: RawEvent<'_>) -> SensorMess
         schema: schema.map_or(&[][..], |schema| &schema.data).into(),
         data: raw.data.into(),
     }
-}
-
-/// Whether messages of a topic come from outside.
-pub(super) fn is_input(topic: &Topic) -> bool {
-    topic.role() == Role::Input
 }

@@ -1,11 +1,10 @@
 //! Integrity and determinism: is the recording what it was, and does it give what it gave?
 
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use super::chain::{Chain, GENESIS, Link};
 use super::checkpoint::Checkpoint;
-use super::events::{Walk, WalkError, decode};
+use super::events::{WalkError, decode};
 use super::open::{OpenError, Recording, Segment};
 use super::reprocess::{Again, ReprocessError};
 use crate::change::World;
