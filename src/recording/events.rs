@@ -124,7 +124,7 @@ impl Recording {
 
     /// A segment and a log time at or before event `order`, by the nearest checkpoint.
     fn place_before(&self, order: u64) -> (usize, u64) {
-        let before = self.checkpoints().filter(|c| c.order < order).last();
+        let before = self.checkpoints().rfind(|c| c.order < order);
         before.map_or((0, 0), |checkpoint| (checkpoint.segment, checkpoint.at.nanos()))
     }
 
