@@ -26,6 +26,7 @@ mod examine;
 mod file;
 mod filter;
 mod learn;
+mod index;
 mod limits;
 mod open_chunk;
 mod options;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use super::open::{Recording, Segment};
-use crate::container::{LogError, MessageFilter};
+use crate::container::{LogError, MessageFilter, RawMessage};
 use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::history::EventLog;
 use crate::time::Stamp;
@@ -28,6 +28,20 @@ pub(super) struct RawEvent<'a> {
     pub log_time: u64,
     pub publish_time: u64,
     pub data: &'a [u8],
+}
+
+impl<'a> RawEvent<'a> {
+    /// The event that `message` is, as number `order`.
+    pub fn of(order: u64, topic: &'a Topic, message: &RawMessage<'a>) -> Self {
+        Self {
+            order,
+            topic,
+            channel: message.channel,
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            data: message.data,
+        }
+    }
 }
 
 /// Why a recording could not be walked to the end.
@@ -103,15 +117,7 @@ impl Recording {
         let mut flow = ControlFlow::Continue(());
         while let Some(message) = cursor.next_message().map_err(failed)? {
             let Some(topic) = segment.topics.get(&message.channel) else { continue };
-            let raw = RawEvent {
-                order: u64::from(message.sequence),
-                topic,
-                channel: message.channel,
-                log_time: message.log_time,
-                publish_time: message.publish_time,
-                data: message.data,
-            };
-            flow = each(raw);
+            flow = each(RawEvent::of(u64::from(message.sequence), topic, &message));
             if flow.is_break() {
                 break;
             }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::chain::{Chain, GENESIS, Link};
 use super::checkpoint::Checkpoint;
-use super::events::{WalkError, decode};
+use super::events::{RawEvent, WalkError, decode};
 use super::open::{OpenError, Recording, Segment};
 use super::reprocess::{Again, ReprocessError};
 use crate::change::World;
@@ -143,6 +143,7 @@ impl<'r> Check<'r> {
                 let what = "the file was never ended: its writer was stopped".to_owned();
                 self.find(Status::Truncated, segment, what);
             }
+            self.indexes(segment);
             match segment.log.check_data_section() {
                 Ok(Some(false)) => {
                     let what = "the checksum of the data section does not hold".to_owned();
@@ -150,6 +151,20 @@ impl<'r> Check<'r> {
                 }
                 Err(error) => self.find(Status::Corrupt, segment, error.to_string()),
                 Ok(_) => {}
+            }
+        }
+    }
+
+    /// Other programs seek by message indexes, so they are looked at though nothing here is.
+    fn indexes(&mut self, segment: &Segment) {
+        let mut buffer = crate::container::ChunkBuffer::new();
+        for entry in segment.log.chunks() {
+            // What is wrong with the chunk itself shows when its messages are read.
+            if segment.log.read_chunk_into(entry, &mut buffer).is_err() {
+                continue;
+            }
+            if let Err(damage) = segment.log.check_indexes(entry, &buffer) {
+                self.find(Status::Corrupt, segment, damage.to_string());
             }
         }
     }
@@ -234,15 +249,7 @@ impl<'r> Check<'r> {
             let (at, published) = (message.log_time, message.publish_time);
             self.chain.add(&topic.name(), order, at, published, message.data);
         }
-        let raw = super::events::RawEvent {
-            order,
-            topic,
-            channel: message.channel,
-            log_time: message.log_time,
-            publish_time: message.publish_time,
-            data: message.data,
-        };
-        match decode(segment, raw) {
+        match decode(segment, RawEvent::of(order, topic, message)) {
             Ok(logged) => self.event(segment, &logged),
             Err(error) => {
                 self.broken = true;
