@@ -6,7 +6,7 @@ use super::Outcome;
 use super::output::{Output, Style};
 use crate::geometry::Tolerance;
 use crate::history::{Diff, Expr, Selector, first_holding, why};
-use crate::recording::{Recording, RecordError, reprocess};
+use crate::recording::{RecordError, Recording, reprocess};
 use crate::time::At;
 use crate::updater::Config;
 
@@ -29,7 +29,7 @@ pub fn run(_: &Demo, out: &mut Output) -> anyhow::Result<Outcome> {
     changed(&recording, out)?;
     audited(&recording, out)?;
     bisected(&recording, out)?;
-    proven(&recording, out)?;
+    let outcome = proven(&recording, out)?;
     heading(out, "Try it yourself")?;
     for command in [
         "scenefold replay recordings/household_day.mcap --at 8h20m",
@@ -38,7 +38,7 @@ pub fn run(_: &Demo, out: &mut Output) -> anyhow::Result<Outcome> {
     ] {
         writeln!(out, "  {command}")?;
     }
-    Ok(Outcome::Clean)
+    Ok(outcome)
 }
 
 fn heading(out: &mut Output, text: &str) -> anyhow::Result<()> {
@@ -48,7 +48,8 @@ fn heading(out: &mut Output, text: &str) -> anyhow::Result<()> {
 }
 
 fn contents(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
-    let heading = "A day in a household, as its robot recorded it (built in; recordings/household_day.mcap)";
+    let heading =
+        "A day in a household, as its robot recorded it (built in; recordings/household_day.mcap)";
     writeln!(out, "{}", out.paint(Style::Bold, heading))?;
     let (summary, start) = (recording.summary(), recording.state_at(At::Start, 1)?);
     writeln!(
@@ -64,21 +65,32 @@ fn contents(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
 }
 
 fn changed(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
-    heading(out, "What was elsewhere in the evening      scenefold diff REC --from start --to end")?;
+    heading(
+        out,
+        "What was elsewhere in the evening      scenefold diff REC --from start --to end",
+    )?;
     let (from, to) = (recording.state_at(At::Start, 1)?, recording.state_at(At::End, 1)?);
     let diff = Diff::between(from.graph(), to.graph(), &Tolerance::EXACT);
     indented(out, &diff.to_string())
 }
 
 fn audited(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
-    heading(out, &format!("How the {OBJECT} got where it is             scenefold why REC {OBJECT}"))?;
+    heading(
+        out,
+        &format!("How the {OBJECT} got where it is             scenefold why REC {OBJECT}"),
+    )?;
     let life = why(recording, u64::MAX, &Selector::Label(OBJECT.to_owned()))?;
     indented(out, &life.to_string())
 }
 
 fn bisected(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
     let condition = format!("absent({OBJECT})");
-    heading(out, &format!("When it first went missing             scenefold bisect REC --when '{condition}'"))?;
+    heading(
+        out,
+        &format!(
+            "When it first went missing             scenefold bisect REC --when '{condition}'"
+        ),
+    )?;
     let expr: Expr = condition.parse()?;
     if let Some(hit) = first_holding(recording, &expr)? {
         let change = hit.change.map_or(String::new(), |seq| format!(", by change c{seq}"));
@@ -87,8 +99,11 @@ fn bisected(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn proven(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
-    heading(out, "Does it replay to the same belief       scenefold verify REC; scenefold reprocess REC")?;
+fn proven(recording: &Recording, out: &mut Output) -> anyhow::Result<Outcome> {
+    heading(
+        out,
+        "Does it replay to the same belief       scenefold verify REC; scenefold reprocess REC",
+    )?;
     let config = recording.meta().map_or_else(Config::default, |meta| meta.config.clone());
     let again = reprocess(recording, config, &mut |_, _| Ok::<_, RecordError>(()))?;
     let replayed = recording.state_at(At::End, 1)?.graph().hash();
@@ -98,7 +113,7 @@ fn proven(recording: &Recording, out: &mut Output) -> anyhow::Result<()> {
     let verdict = out.paint(if same { Style::Green } else { Style::Red }, verdict);
     writeln!(out, "  by folding the recorded primitives   {replayed}")?;
     writeln!(out, "  by running the detectors again       {derived}   {verdict}")?;
-    Ok(())
+    Ok(if same { Outcome::Clean } else { Outcome::Findings })
 }
 
 fn indented(out: &mut Output, text: &str) -> anyhow::Result<()> {

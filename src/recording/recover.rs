@@ -47,7 +47,7 @@ pub fn recover(
     progress: &mut dyn FnMut(u64),
 ) -> Result<Recovered, RecordError> {
     let recording = Recording::scan(path)?;
-    let io = |error| RecordError::Io { path: out.to_owned(), error };
+    let io = |error| RecordError::io(out, error);
     let file = OpenOptions::new().write(true).create_new(true).open(out).map_err(io)?;
     let mut copy = Copy::new(&recording, file)?;
     for segment in &recording.segments {

@@ -53,7 +53,7 @@ impl Sink {
         meta: &Meta,
         options: &RecorderOptions,
     ) -> Result<Self, RecordError> {
-        let failed = |error: io::Error| RecordError::Io { path: path.to_owned(), error };
+        let failed = |error: io::Error| RecordError::io(path, error);
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
         if options.sync != SyncPolicy::Never {
             sync_folder(path).map_err(failed)?;
