@@ -80,8 +80,10 @@ proptest! {
             };
             let found = events(&torn, Walk::Events);
             prop_assert_eq!(&found[..], &all[..found.len()]);
-            let found = events(&torn, Walk::Everything);
-            prop_assert_eq!(&found[..], &everything[..found.len()]);
+            // Images leave for the disk ahead of the events around them.
+            for logged in events(&torn, Walk::Everything) {
+                prop_assert_eq!(&logged, &everything[logged.order as usize - 1]);
+            }
             let Some(last) = found.last() else { continue };
             let state = torn.state_at(At::End, 1).unwrap();
             let expected = whole.state_at(At::Event(last.order), 1).unwrap();
