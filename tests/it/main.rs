@@ -9,8 +9,11 @@
 //! - `python`: other readers agree.
 //! - `tidy`: the shape of the sources.
 
+mod golden;
 mod house;
 mod laws;
+mod sha256;
+mod synthetic;
 mod tidy;
 
 // What the strategies of the crate's own tests name as `crate::…`.
