@@ -11,6 +11,7 @@
 
 mod golden;
 mod house;
+mod kill;
 mod laws;
 mod sha256;
 mod synthetic;
