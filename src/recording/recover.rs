@@ -76,6 +76,7 @@ impl<'r> Copy<'r> {
     fn new(recording: &'r Recording, file: File) -> Result<Self, RecordError> {
         let mut writer = LogWriter::new(file, LogOptions::default())?;
         let meta = recording.segments.iter().find_map(|segment| segment.meta.clone());
+        let meta = meta.or_else(|| made_up(recording));
         if let Some(meta) = &meta {
             let (name, map) = meta.record();
             writer.write_metadata(name, map)?;
@@ -276,6 +277,17 @@ impl<'r> Copy<'r> {
         let damage = self.recording.trouble();
         Ok(Recovered { messages: self.messages, events: self.lost, damage })
     }
+}
+
+/// What a recording of ours says of itself if that is lost; `None` for those of other programs.
+fn made_up(recording: &Recording) -> Option<Meta> {
+    let ours = |segment: &&Segment| {
+        segment.log.channels().values().any(|channel| channel.metadata.contains_key(CLASS_KEY))
+    };
+    let segment = recording.segments.iter().find(ours)?;
+    let what = "its metadata are lost: the default configuration is taken for the recorded one";
+    recording.report(segment, what);
+    Some(Meta::default())
 }
 
 /// The class the channel was written with; for channels of other programs, the fitting one.

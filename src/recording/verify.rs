@@ -258,19 +258,25 @@ impl<'r> Check<'r> {
         if order != expected {
             self.broken = true;
             self.again = None;
-            if !self.gaps.contains(&self.order) {
-                let what = match order > expected {
-                    true => format!("events #{expected} to #{} are missing", order - 1),
-                    false => format!("event #{order} stands after #{}", self.order),
-                };
-                let damaged = self.findings.iter().any(|f| f.status == Status::Corrupt)
-                    || !self.recording.trouble().is_empty();
-                // Missing events without any damage were cut out on purpose.
-                let status = if damaged { Status::Corrupt } else { Status::Tampered };
-                self.find(status, segment, what);
-            }
+            let what = match order > expected {
+                true => format!("events #{expected} to #{} are missing", order - 1),
+                false => format!("event #{order} stands after #{}", self.order),
+            };
+            self.gap(segment, what);
         }
         self.order = order;
+    }
+
+    /// Something is missing after the last event; a recovered recording may have told so.
+    fn gap(&mut self, segment: &Segment, what: String) {
+        if self.gaps.contains(&self.order) {
+            return;
+        }
+        let damaged = self.findings.iter().any(|f| f.status == Status::Corrupt)
+            || !self.recording.trouble().is_empty();
+        // Missing events without any damage were cut out on purpose.
+        let status = if damaged { Status::Corrupt } else { Status::Tampered };
+        self.find(status, segment, what);
     }
 
     fn event(&mut self, segment: &Segment, logged: &crate::event::Logged) {
@@ -331,6 +337,11 @@ impl<'r> Check<'r> {
 
     /// After a gap, everything goes on from what the checkpoint says.
     fn mend(&mut self, segment: &Segment, checkpoint: &Checkpoint) {
+        if checkpoint.order > self.order {
+            let (first, last) = (self.order + 1, checkpoint.order);
+            self.gap(segment, format!("events #{first} to #{last} are missing"));
+            self.order = last;
+        }
         let config = segment.meta.as_ref().map_or_else(Config::default, |m| m.config.clone());
         match (checkpoint.world(), checkpoint.updater(config)) {
             (Ok(world), Ok(updater)) => {
