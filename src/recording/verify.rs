@@ -361,7 +361,14 @@ impl<'r> Check<'r> {
 
     fn end(&mut self, segment: &Segment, lost: bool) {
         self.broken |= lost && segment.seal.is_none();
-        let Some(seal) = segment.seal else { return };
+        let Some(seal) = segment.seal else {
+            // A recorder seals what it ends; whoever cut the end off may have cut that too.
+            if segment.meta.is_some() && segment.log.is_finished() {
+                let what = "the file was ended, but not sealed".to_owned();
+                self.find(Status::Tampered, segment, what);
+            }
+            return;
+        };
         if seal.events != self.order {
             let what =
                 format!("it should end with event #{}, but ends with #{}", seal.events, self.order);
