@@ -9,10 +9,12 @@
 //! - `python`: other readers agree.
 //! - `tidy`: the shape of the sources.
 
+mod forged;
 mod golden;
 mod house;
 mod kill;
 mod laws;
+mod mutations;
 mod sha256;
 mod synthetic;
 mod tidy;

@@ -13,7 +13,7 @@ use super::cases;
 use crate::house::{MANY_CHECKPOINTS, apply, events, inputs, record};
 
 proptest! {
-    #![proptest_config(cases(16))]
+    #![proptest_config(cases(40))]
 
     #[test]
     fn the_state_at_any_event_is_the_fold_of_the_prefix(inputs in inputs(30..110)) {
