@@ -1,7 +1,8 @@
 //! `scenefold export`
 
-use std::io::Write;
-use std::path::PathBuf;
+use std::fs::OpenOptions;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use clap::ValueEnum;
@@ -30,7 +31,7 @@ pub struct Export {
     /// The point: start, end, 12.5s, 36h, 65d, an RFC 3339 instant, #42, c7 or nanoseconds
     #[arg(long, value_name = "AT", default_value = "end")]
     at: At,
-    /// File to write instead of standard output
+    /// New file to write instead of standard output
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -57,9 +58,15 @@ pub fn run(args: &Export, out: &mut Output) -> anyhow::Result<Outcome> {
     };
     match &args.out {
         Some(path) => {
-            std::fs::write(path, text).with_context(|| path.display().to_string())?;
+            write_new(path, &text).with_context(|| path.display().to_string())?;
         }
         None => out.write_all(text.as_bytes())?,
     }
     Ok(source::warn(&recording))
+}
+
+/// A file that is there may be the recording itself.
+fn write_new(path: &Path, text: &str) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(text.as_bytes())
 }
