@@ -9,6 +9,7 @@
 //! - `python`: other readers agree.
 //! - `tidy`: the shape of the sources.
 
+mod cli;
 mod forged;
 mod golden;
 mod house;
