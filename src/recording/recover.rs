@@ -1,7 +1,7 @@
 //! Saving what is intact of a damaged recording into a clean one.
 
 use std::collections::BTreeMap;
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::path::Path;
 
 use super::chain::{Chain, GENESIS};
@@ -10,6 +10,7 @@ use super::events::{RawEvent, decode};
 use super::meta::{Meta, Seal};
 use super::open::{Recording, Segment};
 use super::recorder::RecordError;
+use super::segment::create_new;
 use super::sink::{CLASS_KEY, class_of};
 use crate::change::World;
 use crate::container::{
@@ -48,7 +49,7 @@ pub fn recover(
 ) -> Result<Recovered, RecordError> {
     let recording = Recording::scan(path)?;
     let io = |error| RecordError::Io { path: out.to_owned(), error };
-    let file = OpenOptions::new().write(true).create_new(true).open(out).map_err(io)?;
+    let file = create_new(out).map_err(io)?;
     let mut copy = Copy::new(&recording, file)?;
     for segment in &recording.segments {
         copy.segment(segment, progress)?;

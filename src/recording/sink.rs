@@ -4,7 +4,7 @@
 //! state after them.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::fs::{File, OpenOptions};
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -13,6 +13,7 @@ use super::chain::{Chain, Link};
 use super::checkpoint::Checkpoint;
 use super::meta::{Meta, Seal};
 use super::recorder::{RecordError, RecorderOptions, SyncPolicy};
+use super::segment::create_new;
 use crate::container::{ChannelHandle, ChannelSpec, ChunkClass, LogOptions, LogWriter, SchemaSpec};
 use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::graph::StateHash;
@@ -54,7 +55,7 @@ impl Sink {
         options: &RecorderOptions,
     ) -> Result<Self, RecordError> {
         let failed = |error: io::Error| RecordError::Io { path: path.to_owned(), error };
-        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
+        let file = create_new(path).map_err(failed)?;
         if options.sync != SyncPolicy::Never {
             sync_folder(path).map_err(failed)?;
         }
