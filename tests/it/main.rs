@@ -16,6 +16,7 @@ mod house;
 mod kill;
 mod laws;
 mod mutations;
+mod python;
 mod sha256;
 mod synthetic;
 mod tidy;
