@@ -165,7 +165,7 @@ impl Recorder {
     pub fn record(&mut self, published: Stamp, input: Event) -> Result<Recorded, RecordError> {
         let events = self.updater.update(published, input)?;
         self.event_bytes += self.sink.append(&events)?;
-        if self.event_bytes >= self.ratio * self.checkpoint_bytes {
+        if self.event_bytes >= self.ratio.saturating_mul(self.checkpoint_bytes) {
             self.checkpoint()?;
         }
         Ok(Recorded { events, acknowledged: self.sink.acknowledged() })
@@ -192,7 +192,7 @@ impl Recorder {
         let checkpoint = Checkpoint::of(&self.updater);
         self.checkpoint_bytes = checkpoint.state.len() as u64;
         // The guess may have been too small: then it is not due yet.
-        if self.event_bytes >= self.ratio * self.checkpoint_bytes {
+        if self.event_bytes >= self.ratio.saturating_mul(self.checkpoint_bytes) {
             self.sink.checkpoint(checkpoint)?;
             self.event_bytes = 0;
         }
