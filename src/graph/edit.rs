@@ -33,6 +33,45 @@ impl Placement {
             at: object.last_observed,
         }
     }
+
+    /// `object`, but here.
+    pub fn over(&self, object: Object) -> Object {
+        Object {
+            room: self.room,
+            support: self.support,
+            pose: self.pose,
+            pose_source: self.pose_source,
+            last_observed: self.at,
+            ..object
+        }
+    }
+}
+
+/// Most nodes in one layer; far more than any building holds, few enough to bound what a hostile
+/// log can claim.
+pub const MAX_NODES: usize = 1 << 20;
+/// Most objects below one that is put on something.
+pub const MAX_PILE: usize = 100;
+
+/// At what an object is counted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Hold {
+    room: NodeId,
+    support: Option<NodeId>,
+    held: bool,
+}
+
+impl Hold {
+    fn of(object: &Object) -> Self {
+        Self { room: object.room, support: object.support, held: object.is_held() }
+    }
+}
+
+impl ObjectSlot {
+    /// The count of what rests on it, held or not.
+    fn count(&mut self, held: bool) -> &mut u32 {
+        if held { &mut self.resting_held } else { &mut self.resting }
+    }
 }
 
 impl SceneGraph {
@@ -44,16 +83,14 @@ impl SceneGraph {
     /// Adds an object under a new id.
     pub fn insert_object(&mut self, id: NodeId, object: Object) -> Result<(), GraphError> {
         expect_layer(id, Layer::Object)?;
-        if self.object(id).is_some() {
+        if self.objects.get(id.index()).is_some() {
             return Err(GraphError::DuplicateNode { id });
         }
+        check_room_for(Layer::Object, self.objects.len())?;
         check_decay_rate(id, object.decay_rate)?;
         self.check_room(object.room)?;
-        self.check_support(id, object.support, object.is_held())?;
-        self.count_on(&object, 1);
-        let object = Object { decay_rate: object.decay_rate + 0.0, ..object };
-        let slot = ObjectSlot { object, resting: 0, resting_held: 0 };
-        self.objects.insert(id.index(), slot).expect("the slot was seen to be free");
+        self.check_support(id, None, object.support, object.is_held())?;
+        self.put_in(id, Object { decay_rate: object.decay_rate + 0.0, ..object });
         Ok(())
     }
 
@@ -65,7 +102,7 @@ impl SceneGraph {
             return Err(GraphError::StillSupports { id, count });
         }
         let slot = self.objects.remove(id.index()).expect("the slot was seen to be full");
-        self.count_on(&slot.object, -1);
+        self.count_on(Hold::of(&slot.object), -1);
         Ok(slot.object)
     }
 
@@ -75,43 +112,85 @@ impl SceneGraph {
         if slot.object.is_held() {
             return Err(GraphError::Held { id });
         }
-        if slot.resting > 0 {
-            return Err(GraphError::StillSupports { id, count: slot.resting });
-        }
-        let before = slot.object.clone();
-        let held = Object { pose_source: PoseSource::Held, last_observed: at, ..before.clone() };
-        self.replace_object(id, &before, held);
-        Ok(())
+        let held = PoseSource::Held;
+        let to = Placement { pose_source: held, at, ..Placement::of(&slot.object) };
+        self.place_object(id, &to)
     }
 
     /// Puts an object elsewhere; also one that is held, which it then no longer is.
     pub fn place_object(&mut self, id: NodeId, placement: &Placement) -> Result<(), GraphError> {
-        let before = self.object_slot(id)?.object.clone();
-        self.check_room(placement.room)?;
-        let held = placement.pose_source == PoseSource::Held;
-        self.check_support(id, placement.support, held)?;
-        let after = Object {
-            room: placement.room,
-            support: placement.support,
-            pose: placement.pose,
-            pose_source: placement.pose_source,
-            last_observed: placement.at,
-            ..before.clone()
-        };
-        if held && !before.is_held() && self.object_slot(id)?.resting > 0 {
-            let count = self.object_slot(id)?.resting;
-            return Err(GraphError::StillSupports { id, count });
-        }
-        self.replace_object(id, &before, after);
+        self.check_placement(id, placement)?;
+        self.put_at(id, placement);
         Ok(())
     }
 
     /// Replaces all that is known of an object.
     pub fn update_object(&mut self, id: NodeId, object: Object) -> Result<(), GraphError> {
+        self.swap_object(id, object).map(drop)
+    }
+
+    /// As [`Self::update_object`]; returns what it was.
+    pub(crate) fn swap_object(
+        &mut self,
+        id: NodeId,
+        object: Object,
+    ) -> Result<Object, GraphError> {
         check_decay_rate(id, object.decay_rate)?;
-        self.place_object(id, &Placement::of(&object))?;
-        let slot = self.objects.get_mut(id.index()).expect("it was just placed");
-        slot.object = Object { decay_rate: object.decay_rate + 0.0, ..object };
+        self.check_placement(id, &Placement::of(&object))?;
+        let object = Object { decay_rate: object.decay_rate + 0.0, ..object };
+        Ok(self.put_over(id, object))
+    }
+
+    /// Puts an object back to where it was before edits that have been taken back since: that
+    /// state was allowed, so nothing is refused.
+    pub(crate) fn put_back(&mut self, id: NodeId, placement: &Placement) {
+        self.put_at(id, placement);
+    }
+
+    /// As [`Self::put_back`], for an object that was replaced.
+    pub(crate) fn put_back_over(&mut self, id: NodeId, object: Object) {
+        self.put_over(id, object);
+    }
+
+    /// As [`Self::put_back`], for an object that was taken out.
+    pub(crate) fn put_back_in(&mut self, id: NodeId, object: Object) {
+        self.put_in(id, object);
+    }
+
+    /// Puts objects that rest on nothing yet on their supports, all at once, so that a pile may
+    /// come in any order. On error the graph is half done and of no use.
+    pub(crate) fn set_supports(
+        &mut self,
+        supports: &[(NodeId, NodeId)],
+    ) -> Result<(), GraphError> {
+        for (id, support) in supports {
+            let held = self.object_slot(*id)?.object.is_held();
+            self.check_holds(*support, held)?;
+            let slot = self.objects.get_mut(id.index()).expect("just read");
+            slot.object.support = Some(*support);
+            let on = self.objects.get_mut(support.index()).expect("just seen to be there");
+            *on.count(held) += 1;
+        }
+        self.check_acyclic(supports)
+    }
+
+    /// Each object is passed once: what is known to stand on the ground ends a way down.
+    fn check_acyclic(&self, supports: &[(NodeId, NodeId)]) -> Result<(), GraphError> {
+        let mut passed = vec![0_u32; self.objects.places()];
+        for (n, (id, support)) in (1..).zip(supports) {
+            let mut below = Some(*id);
+            while let Some(next) = below {
+                let place = self.objects.place(next.index()).expect("supports are there");
+                match passed[place] {
+                    0 => passed[place] = n,
+                    mark if mark == n => {
+                        return Err(GraphError::SupportCycle { id: *id, support: *support });
+                    }
+                    _ => break,
+                }
+                below = self.object(next).and_then(|object| object.support);
+            }
+        }
         Ok(())
     }
 
@@ -152,6 +231,7 @@ impl SceneGraph {
         if self.region(id).is_some() {
             return Err(GraphError::DuplicateNode { id });
         }
+        check_room_for(id.layer(), self.regions_mut(id.layer()).len())?;
         if let Some(parent) = region.parent {
             if parent.layer() <= id.layer() {
                 return Err(GraphError::LayerOrder { parent, child: id });
@@ -186,56 +266,108 @@ impl SceneGraph {
         }
         self.check_room(a)?;
         self.check_room(b)?;
-        self.access.insert((a.min(b), a.max(b)));
+        self.access.extend([(a, b), (b, a)]);
         Ok(())
     }
 
     /// Takes the access between two rooms away, if there is any.
     pub fn disconnect(&mut self, a: NodeId, b: NodeId) {
-        self.access.remove(&(a.min(b), a.max(b)));
+        self.access.remove(&(a, b));
+        self.access.remove(&(b, a));
     }
 
-    fn replace_object(&mut self, id: NodeId, before: &Object, after: Object) {
-        self.count_on(before, -1);
-        self.count_on(&after, 1);
-        self.objects.get_mut(id.index()).expect("the caller has just read it").object = after;
+    fn put_in(&mut self, id: NodeId, object: Object) {
+        self.count_on(Hold::of(&object), 1);
+        let slot = ObjectSlot { object, resting: 0, resting_held: 0 };
+        self.objects.insert(id.index(), slot).expect("the slot was seen to be free");
     }
 
-    /// Counts `object` in (+1) or out (−1) at its room and support.
-    fn count_on(&mut self, object: &Object, by: i32) {
+    fn put_at(&mut self, id: NodeId, to: &Placement) {
+        let slot = self.objects.get_mut(id.index()).expect("it was seen to be there");
+        let object = &mut slot.object;
+        let before = Hold::of(object);
+        object.room = to.room;
+        object.support = to.support;
+        object.pose = to.pose;
+        object.pose_source = to.pose_source;
+        object.last_observed = to.at;
+        let after = Hold::of(object);
+        if before != after {
+            self.count_on(before, -1);
+            self.count_on(after, 1);
+        }
+    }
+
+    fn put_over(&mut self, id: NodeId, object: Object) -> Object {
+        let slot = self.objects.get_mut(id.index()).expect("it was seen to be there");
+        let after = Hold::of(&object);
+        let before = std::mem::replace(&mut slot.object, object);
+        self.count_on(Hold::of(&before), -1);
+        self.count_on(after, 1);
+        before
+    }
+
+    /// Counts an object in (+1) or out (−1) at its room and support.
+    fn count_on(&mut self, at: Hold, by: i32) {
         let step = |count: &mut u32| *count = count.wrapping_add_signed(by);
-        if let Some(room) = self.rooms.get_mut(object.room.index()) {
+        if let Some(room) = self.rooms.get_mut(at.room.index()) {
             step(&mut room.children);
         }
-        if let Some(support) = object.support.and_then(|id| self.objects.get_mut(id.index())) {
-            step(if object.is_held() { &mut support.resting_held } else { &mut support.resting });
+        if let Some(support) = at.support.and_then(|id| self.objects.get_mut(id.index())) {
+            step(support.count(at.held));
         }
+    }
+
+    fn check_placement(&self, id: NodeId, to: &Placement) -> Result<(), GraphError> {
+        let slot = self.object_slot(id)?;
+        let held = to.pose_source == PoseSource::Held;
+        self.check_room(to.room)?;
+        self.check_support(id, slot.object.support, to.support, held)?;
+        if held && !slot.object.is_held() && slot.resting > 0 {
+            return Err(GraphError::StillSupports { id, count: slot.resting });
+        }
+        Ok(())
     }
 
     fn check_room(&self, room: NodeId) -> Result<(), GraphError> {
         expect_layer(room, Layer::Room)?;
-        self.region(room).map(drop).ok_or(GraphError::UnknownNode { id: room })
+        let known = self.rooms.get(room.index()).is_some();
+        if known { Ok(()) } else { Err(GraphError::UnknownNode { id: room }) }
     }
 
-    /// `id` may rest on `support`: it exists, is held only if `id` is, and rests not on `id`.
+    /// `id`, which rests on `before`, may rest on `support`: it can hold it, and rests not on
+    /// `id`. Few things stand on each other in a house, so a high pile is refused rather than
+    /// walked down at every edit.
     fn check_support(
         &self,
         id: NodeId,
+        before: Option<NodeId>,
         support: Option<NodeId>,
         held: bool,
     ) -> Result<(), GraphError> {
         let Some(support) = support else { return Ok(()) };
-        expect_layer(support, Layer::Object)?;
+        self.check_holds(support, held)?;
+        if before == Some(support) {
+            return Ok(());
+        }
         let mut below = Some(support);
-        while let Some(next) = below {
+        for _ in 0..MAX_PILE {
+            let Some(next) = below else { return Ok(()) };
             if next == id {
                 return Err(GraphError::SupportCycle { id, support });
             }
-            let object = self.object(next).ok_or(GraphError::UnknownNode { id: next })?;
-            if next == support && object.is_held() && !held {
-                return Err(GraphError::Held { id: support });
-            }
-            below = object.support;
+            below = self.object_slot(next)?.object.support;
+        }
+        match below {
+            None => Ok(()),
+            Some(_) => Err(GraphError::PileTooHigh { id, support, limit: MAX_PILE }),
+        }
+    }
+
+    /// `support` is an object, and held only if what rests on it is.
+    fn check_holds(&self, support: NodeId, held: bool) -> Result<(), GraphError> {
+        if self.object_slot(support)?.object.is_held() && !held {
+            return Err(GraphError::Held { id: support });
         }
         Ok(())
     }
@@ -273,6 +405,11 @@ impl SceneGraph {
 fn expect_layer(id: NodeId, expected: Layer) -> Result<(), GraphError> {
     let found = id.layer();
     if found == expected { Ok(()) } else { Err(GraphError::WrongLayer { id, found, expected }) }
+}
+
+/// Whether a layer that holds `count` nodes takes another.
+fn check_room_for(layer: Layer, count: usize) -> Result<(), GraphError> {
+    if count < MAX_NODES { Ok(()) } else { Err(GraphError::Full { layer, limit: MAX_NODES }) }
 }
 
 fn check_decay_rate(id: NodeId, value: f64) -> Result<(), GraphError> {

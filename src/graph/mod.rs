@@ -20,7 +20,7 @@ use std::collections::BTreeSet;
 
 pub use canonical::{CANONICAL_VERSION, CanonicalError, StateHash};
 pub(crate) use canonical::{read_object_bytes, write_object_bytes};
-pub use edit::Placement;
+pub use edit::{MAX_NODES, MAX_PILE, Placement};
 pub use error::GraphError;
 pub use id::{Layer, NodeId, NodeIdError};
 pub use label::{Label, LabelError};
@@ -37,6 +37,6 @@ pub struct SceneGraph {
     rooms: Slots<RegionSlot>,
     floors: Slots<RegionSlot>,
     buildings: Slots<RegionSlot>,
-    /// Undirected, each pair once, the smaller id first.
+    /// Undirected: each pair both ways, so that the rooms next to one are found at once.
     access: BTreeSet<(NodeId, NodeId)>,
 }

@@ -16,6 +16,7 @@ mod error;
 mod fields;
 mod graph_state;
 mod inputs;
+mod labels;
 pub mod ros2;
 mod schema;
 mod transaction;
@@ -36,8 +37,9 @@ pub use checkpoint::{
 };
 pub use error::WireError;
 pub use inputs::MAX_UTTERANCE;
+pub use labels::Labels;
 pub use schema::{Schema, schema_of};
-pub use transaction::{MAX_TRANSACTION_ITEMS, decode_transaction};
+pub use transaction::{MAX_TRANSACTION_ITEMS, decode_edits, decode_transaction};
 
 use prost::Message;
 
