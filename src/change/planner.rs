@@ -292,7 +292,7 @@ pub(crate) fn topological_pose(
     let above = |id: NodeId| {
         let support = graph.object(id)?;
         let [x, y, z] = support.pose.position();
-        let lift = (support.size.metres()[2] + size.metres()[2]) / 2.0;
+        let lift = f64::midpoint(support.size.metres()[2], size.metres()[2]);
         Pose::at([x, y, z + lift]).ok()
     };
     let middle = || Some(graph.region(room)?.extent?.0);

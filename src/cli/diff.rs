@@ -1,7 +1,7 @@
 //! `scenefold diff`
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
@@ -56,7 +56,7 @@ pub fn run(args: &Diff, out: &mut Output) -> anyhow::Result<Outcome> {
     let tolerance = args.tolerance()?;
     let default_from = if args.b.is_some() { At::End } else { At::Start };
     let from = graph(&args.a, args.from.unwrap_or(default_from))?;
-    let to = graph(args.b.as_ref().unwrap_or(&args.a), args.to)?;
+    let to = graph(args.b.as_deref().unwrap_or(&args.a), args.to)?;
     let compare = if args.observed { GraphDiff::complete } else { GraphDiff::between };
     let diff = compare(&from, &to, &tolerance);
     if args.json {
@@ -79,7 +79,7 @@ impl Diff {
     }
 }
 
-fn graph(path: &PathBuf, at: At) -> anyhow::Result<SceneGraph> {
+fn graph(path: &Path, at: At) -> anyhow::Result<SceneGraph> {
     if path.as_os_str() == "-" || is_mcap(path) || !looks_like_json(path) {
         let recording = source::open(path)?;
         let state = state_at(&recording, at)?;
@@ -90,6 +90,6 @@ fn graph(path: &PathBuf, at: At) -> anyhow::Result<SceneGraph> {
     Ok(import.graph)
 }
 
-fn looks_like_json(path: &PathBuf) -> bool {
+fn looks_like_json(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "json")
 }

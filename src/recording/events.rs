@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use super::open::{Recording, Segment};
-use crate::container::{LogError, MessageFilter};
-use crate::event::{Event, Logged, Role, SensorMessage, Topic};
+use crate::container::{LogError, MessageFilter, RawMessage};
+use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::history::EventLog;
 use crate::time::Stamp;
 use crate::wire;
@@ -29,6 +28,20 @@ pub(super) struct RawEvent<'a> {
     pub log_time: u64,
     pub publish_time: u64,
     pub data: &'a [u8],
+}
+
+impl<'a> RawEvent<'a> {
+    /// The event that `message` is, as number `order`.
+    pub fn of(order: u64, topic: &'a Topic, message: &RawMessage<'a>) -> Self {
+        Self {
+            order,
+            topic,
+            channel: message.channel,
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            data: message.data,
+        }
+    }
 }
 
 /// Why a recording could not be walked to the end.
@@ -104,15 +117,7 @@ impl Recording {
         let mut flow = ControlFlow::Continue(());
         while let Some(message) = cursor.next_message().map_err(failed)? {
             let Some(topic) = segment.topics.get(&message.channel) else { continue };
-            let raw = RawEvent {
-                order: u64::from(message.sequence),
-                topic,
-                channel: message.channel,
-                log_time: message.log_time,
-                publish_time: message.publish_time,
-                data: message.data,
-            };
-            flow = each(raw);
+            flow = each(RawEvent::of(u64::from(message.sequence), topic, &message));
             if flow.is_break() {
                 break;
             }
@@ -125,7 +130,7 @@ impl Recording {
 
     /// A segment and a log time at or before event `order`, by the nearest checkpoint.
     fn place_before(&self, order: u64) -> (usize, u64) {
-        let before = self.checkpoints().filter(|c| c.order < order).last();
+        let before = self.checkpoints().rfind(|c| c.order < order);
         before.map_or((0, 0), |checkpoint| (checkpoint.segment, checkpoint.at.nanos()))
     }
 
@@ -184,9 +189,4 @@ pub(super) fn sensor_message(segment: &Segment, raw: RawEvent<'_>) -> SensorMess
         schema: schema.map_or(&[][..], |schema| &schema.data).into(),
         data: raw.data.into(),
     }
-}
-
-/// Whether messages of a topic come from outside.
-pub(super) fn is_input(topic: &Topic) -> bool {
-    topic.role() == Role::Input
 }

@@ -41,7 +41,7 @@ pub use open::{OpenError, Recording};
 pub use point::{Point, PointError};
 pub use recorder::{RecordError, Recorded, Recorder, RecorderOptions, SyncPolicy};
 pub use recover::{LostEvents, Recovered, recover};
-pub use reprocess::{Difference, Reprocessed, reprocess};
+pub use reprocess::{Difference, ReprocessError, Reprocessed, UpdateSink, reprocess};
 pub use state::State;
 pub use summary::{ChannelSummary, Summary};
 pub use verify::{Finding, Status, Verified, verify};

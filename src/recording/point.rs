@@ -83,7 +83,7 @@ impl Recording {
 
     /// Number of the last event of the update that recorded change `seq`.
     fn end_of_change(&self, seq: u64) -> Result<u64, PointError> {
-        let before = self.checkpoints().filter(|c| c.changes < seq).last();
+        let before = self.checkpoints().rfind(|c| c.changes < seq);
         let first = before.map_or(1, |checkpoint| checkpoint.order + 1);
         let (mut last_seq, mut end) = (before.map_or(0, |checkpoint| checkpoint.changes), None);
         let mut look = |logged: &crate::event::Logged| match &logged.event {

@@ -47,7 +47,7 @@ pub fn recover(
     progress: &mut dyn FnMut(u64),
 ) -> Result<Recovered, RecordError> {
     let recording = Recording::scan(path)?;
-    let io = |error| RecordError::Io { path: out.to_owned(), error };
+    let io = |error| RecordError::io(out, error);
     let file = OpenOptions::new().write(true).create_new(true).open(out).map_err(io)?;
     let mut copy = Copy::new(&recording, file)?;
     for segment in &recording.segments {
@@ -149,15 +149,7 @@ impl<'r> Copy<'r> {
     /// Follows the fold and the chain; `false` if the event is no use and is left out.
     fn event(&mut self, segment: &Segment, topic: &Topic, message: &RawMessage<'_>) -> bool {
         let order = u64::from(message.sequence);
-        let raw = RawEvent {
-            order,
-            topic,
-            channel: message.channel,
-            log_time: message.log_time,
-            publish_time: message.publish_time,
-            data: message.data,
-        };
-        let logged = match decode(segment, raw) {
+        let logged = match decode(segment, RawEvent::of(order, topic, message)) {
             Ok(logged) if order > self.order => logged,
             Ok(_) => {
                 let what = format_args!("event #{order} stands after #{}: left out", self.order);

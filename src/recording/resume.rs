@@ -44,18 +44,13 @@ impl Recording {
         let damaged = |what: String| ResumeError::Damaged(what);
         let config = self.meta().map_or_else(Config::default, |meta| meta.config.clone());
         let usable = self.checkpoints().rev().find_map(|at| self.checkpoint(at).ok());
-        let (updater, chain) = match usable {
-            Some(checkpoint) => {
-                let chain = Chain::after(checkpoint.chain);
-                let updater = checkpoint.updater(config);
-                (updater.map_err(|error| damaged(error.to_string()))?, chain)
-            }
-            None => {
-                let first = self.meta().ok_or_else(|| damaged("it is not ours".to_owned()))?.chain;
-                (Updater::new(config), Chain::after(first))
-            }
-        };
-        self.run_on(updater, chain)
+        if let Some(checkpoint) = usable {
+            let chain = Chain::after(checkpoint.chain);
+            let updater = checkpoint.updater(config).map_err(|error| damaged(error.to_string()))?;
+            return self.run_on(updater, chain);
+        }
+        let first = self.meta().ok_or_else(|| damaged("it is not ours".to_owned()))?.chain;
+        self.run_on(Updater::new(config), Chain::after(first))
     }
 
     fn run_on(&self, updater: Updater, mut chain: Chain) -> Result<End, ResumeError> {

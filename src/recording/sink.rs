@@ -53,7 +53,7 @@ impl Sink {
         meta: &Meta,
         options: &RecorderOptions,
     ) -> Result<Self, RecordError> {
-        let failed = |error: io::Error| RecordError::Io { path: path.to_owned(), error };
+        let failed = |error: io::Error| RecordError::io(path, error);
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
         if options.sync != SyncPolicy::Never {
             sync_folder(path).map_err(failed)?;
@@ -61,7 +61,7 @@ impl Sink {
         // Chunks are closed here, between updates, so that a torn file never shows half of one.
         let event_chunk_bytes = usize::MAX;
         let zstd_level = options.zstd_level;
-        let log_options = LogOptions { zstd_level, event_chunk_bytes, ..LogOptions::default() };
+        let log_options = LogOptions { event_chunk_bytes, zstd_level, ..LogOptions::default() };
         let mut writer = LogWriter::new(file, log_options)?;
         let (name, map) = meta.record();
         writer.write_metadata(name, map)?;

@@ -54,9 +54,11 @@ impl Recording {
         let point = self.point(at)?;
         let state = self.state(point, threads)?;
         match at {
-            At::Event(order) if order > state.order => {
-                Err(PointError::NoSuchEvent { order, last: state.order })
-            }
+            // The fold passes over images; an event number may be that of one.
+            At::Event(order) if order > state.order => match self.event(order)? {
+                Some(sensor) => Ok(State { order, at: sensor.at, ..state }),
+                None => Err(PointError::NoSuchEvent { order, last: state.order }),
+            },
             _ => Ok(state),
         }
     }

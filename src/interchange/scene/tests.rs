@@ -1,3 +1,5 @@
+//! Tests of our own JSON.
+
 // Lengths lie on a grid: equality is exact.
 #![allow(clippy::float_cmp)]
 

@@ -6,7 +6,7 @@ use crate::change::{
     Action, Claim, EvidenceRef, Modality, NodeRef, Occurred, Rejection, locate, locate_room,
 };
 use crate::event::{Interpretation, Status, Task, TaskStatus};
-use crate::graph::{CanonicalError, NodeId};
+use crate::graph::{CanonicalError, NodeId, Object};
 use crate::modality::Desk;
 use crate::modality::desk::{evidence, node_ref};
 
@@ -164,7 +164,7 @@ impl Report<'_, '_> {
     fn held(&self) -> Option<NodeRef> {
         let InHand::Known(id) = self.memory.in_hand else { return None };
         let world = self.desk.world();
-        world.graph().object(id).is_some_and(|o| o.is_held()).then(|| node_ref(world, id))
+        world.graph().object(id).is_some_and(Object::is_held).then(|| node_ref(world, id))
     }
 
     /// An object that is known was moved; one that nobody knew is new.

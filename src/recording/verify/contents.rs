@@ -1,177 +1,22 @@
-//! Integrity and determinism: is the recording what it was, and does it give what it gave?
+//! What the messages say: numbers, the chain, the fold, the detectors.
 
-use std::ops::ControlFlow;
-use std::path::Path;
-
-use super::chain::{Chain, GENESIS, Link};
-use super::checkpoint::Checkpoint;
-use super::events::{Walk, WalkError, decode};
-use super::open::{OpenError, Recording, Segment};
-use super::reprocess::{Again, ReprocessError};
+use super::{Check, Status};
 use crate::change::World;
-use crate::container::{DamageKind, DamageList};
-use crate::event::{Event, Topic};
-use crate::graph::StateHash;
-use crate::updater::{Config, Updater};
+use crate::container::{MessageFilter, RawMessage};
+use crate::event::{Event, Logged, Topic};
+use crate::recording::chain::Chain;
+use crate::recording::checkpoint::Checkpoint;
+use crate::recording::events::{RawEvent, decode};
+use crate::recording::open::Segment;
+use crate::recording::reprocess::{Again, ReprocessError};
+use crate::updater::Config;
 
-/// The verdict, the worst that was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Status {
-    /// Nothing is wrong.
-    Intact,
-    /// The detectors derive something else from the inputs than was recorded, or the recorded
-    /// primitives do not give the recorded states.
-    Nondeterministic,
-    /// The end is missing, as after a crash; everything before it is whole.
-    Truncated,
-    /// All checksums hold, but the events are not those that were recorded.
-    Tampered,
-    /// Bytes were lost or changed.
-    Corrupt,
-}
-
-impl Status {
-    /// The word for it in JSON.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Intact => "intact",
-            Self::Nondeterministic => "nondeterministic",
-            Self::Truncated => "truncated",
-            Self::Tampered => "tampered",
-            Self::Corrupt => "corrupt",
-        }
-    }
-}
-
-/// One thing that is wrong.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
-    /// What kind it is.
-    pub status: Status,
-    /// File name of the segment.
-    pub segment: String,
-    /// In words, with the place.
-    pub what: String,
-}
-
-/// What came of verifying.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Verified {
-    /// The verdict.
-    pub status: Status,
-    /// Hash of the graph after the last intact event.
-    pub hash: StateHash,
-    /// Link of the chain after the last intact event; compare it with one kept elsewhere.
-    pub chain: Link,
-    /// How many events were read.
-    pub events: u64,
-    /// How many checkpoints were found to be right.
-    pub checkpoints: u64,
-    /// How many inputs gave again what was recorded.
-    pub reprocessed: u64,
-    /// What is wrong.
-    pub findings: Vec<Finding>,
-    /// Event numbers after which events are missing, if it was recovered from a damaged one.
-    pub gaps: Vec<u64>,
-}
-
-/// Reads all of the recording at `path` and checks everything that can be checked: structure
-/// and checksums, the hash chain, the states at checkpoints and at the end by folding, and the
-/// derived records by running the detectors again. `progress` is told the events read so far.
-pub fn verify(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<Verified, OpenError> {
-    let recording = Recording::scan(path)?;
-    let mut check = Check::new(&recording);
-    check.structure();
-    // A scan does not look at the indexes; opening does.
-    for segment in &Recording::open(path)?.segments {
-        check.damages(segment, segment.log.damage());
-    }
-    let walked = check.contents(progress);
-    if let Err(error) = walked {
-        check.find(Status::Corrupt, &recording.segments[0], error.to_string());
-    }
-    Ok(check.verdict())
-}
-
-struct Check<'r> {
-    recording: &'r Recording,
-    findings: Vec<Finding>,
-    chain: Chain,
-    world: World,
-    again: Option<Again>,
-    order: u64,
-    events: u64,
-    checkpoints: u64,
-    /// Something before here is lost: the chain and the states cannot be compared until a
-    /// checkpoint.
-    broken: bool,
-    segment: usize,
-    gaps: Vec<u64>,
-}
-
-impl<'r> Check<'r> {
-    fn new(recording: &'r Recording) -> Self {
-        let config = recording.meta().map_or_else(Config::default, |meta| meta.config.clone());
-        let first = recording.meta().map_or(GENESIS, |meta| meta.chain);
-        let gaps = recording.segments.iter().filter_map(|segment| segment.meta.as_ref());
-        Self {
-            recording,
-            findings: Vec::new(),
-            chain: Chain::after(first),
-            world: World::default(),
-            again: Some(Again::new(Updater::new(config))),
-            order: 0,
-            events: 0,
-            checkpoints: 0,
-            broken: false,
-            segment: 0,
-            gaps: gaps.flat_map(|meta| meta.gaps.clone()).collect(),
-        }
-    }
-
-    fn find(&mut self, status: Status, segment: &Segment, what: String) {
-        let segment = segment.path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let finding = Finding { status, segment, what };
-        if self.findings.len() < 1000 && !self.findings.contains(&finding) {
-            self.findings.push(finding);
-        }
-    }
-
-    fn structure(&mut self) {
-        for segment in &self.recording.segments {
-            self.damages(segment, segment.log.damage());
-            if !segment.log.is_finished() {
-                let what = "the file was never ended: its writer was stopped".to_owned();
-                self.find(Status::Truncated, segment, what);
-            }
-            match segment.log.check_data_section() {
-                Ok(Some(false)) => {
-                    let what = "the checksum of the data section does not hold".to_owned();
-                    self.find(Status::Corrupt, segment, what);
-                }
-                Err(error) => self.find(Status::Corrupt, segment, error.to_string()),
-                Ok(_) => {}
-            }
-        }
-    }
-
-    fn damages(&mut self, segment: &Segment, damages: &DamageList) {
-        for damage in damages.items() {
-            let status = match damage.kind {
-                DamageKind::TornTail | DamageKind::OpenChunk | DamageKind::Empty => {
-                    Status::Truncated
-                }
-                _ => Status::Corrupt,
-            };
-            self.find(status, segment, damage.to_string());
-        }
-    }
-
-    fn contents(&mut self, progress: &mut dyn FnMut(u64)) -> Result<(), WalkError> {
+impl Check<'_> {
+    pub(super) fn contents(&mut self, progress: &mut dyn FnMut(u64)) {
         for (n, segment) in self.recording.segments.iter().enumerate() {
             self.segment = n;
             self.begin(n, segment);
-            let filter = crate::container::MessageFilter::default();
+            let filter = MessageFilter::default();
             let mut cursor = segment.log.messages(filter);
             loop {
                 let message = match cursor.next_message() {
@@ -194,7 +39,6 @@ impl<'r> Check<'r> {
             self.damages(segment, &damage);
             self.end(segment, lost);
         }
-        Ok(())
     }
 
     fn begin(&mut self, n: usize, segment: &Segment) {
@@ -213,12 +57,7 @@ impl<'r> Check<'r> {
         self.chain = Chain::after(meta.chain);
     }
 
-    fn message(
-        &mut self,
-        segment: &Segment,
-        topic: &Topic,
-        message: &crate::container::RawMessage<'_>,
-    ) {
+    fn message(&mut self, segment: &Segment, topic: &Topic, message: &RawMessage<'_>) {
         if *topic == Topic::Checkpoint {
             return self.checkpoint(segment, message.data);
         }
@@ -235,15 +74,7 @@ impl<'r> Check<'r> {
             let (at, published) = (message.log_time, message.publish_time);
             self.chain.add(&topic.name(), order, at, published, message.data);
         }
-        let raw = super::events::RawEvent {
-            order,
-            topic,
-            channel: message.channel,
-            log_time: message.log_time,
-            publish_time: message.publish_time,
-            data: message.data,
-        };
-        match decode(segment, raw) {
+        match decode(segment, RawEvent::of(order, topic, message)) {
             Ok(logged) => self.event(segment, &logged),
             Err(error) => {
                 self.broken = true;
@@ -273,7 +104,7 @@ impl<'r> Check<'r> {
         self.order = order;
     }
 
-    fn event(&mut self, segment: &Segment, logged: &crate::event::Logged) {
+    fn event(&mut self, segment: &Segment, logged: &Logged) {
         match &logged.event {
             Event::InitialGraph(graph) => self.world = World::from_graph(graph.clone()),
             Event::Transaction(transaction) => {
@@ -350,7 +181,13 @@ impl<'r> Check<'r> {
 
     fn end(&mut self, segment: &Segment, lost: bool) {
         self.broken |= lost && segment.seal.is_none();
-        let Some(seal) = segment.seal else { return };
+        let Some(seal) = segment.seal else {
+            if segment.meta.is_some() && segment.log.is_finished() {
+                let what = "the record of how it should end is missing".to_owned();
+                self.find(Status::Corrupt, segment, what);
+            }
+            return;
+        };
         if seal.events != self.order {
             let what =
                 format!("it should end with event #{}, but ends with #{}", seal.events, self.order);
@@ -367,33 +204,6 @@ impl<'r> Check<'r> {
         if seal.state_hash != self.world.graph().hash() {
             let what = "the fold does not give the state the recording ended with".to_owned();
             self.find(Status::Nondeterministic, segment, what);
-        }
-    }
-
-    fn verdict(mut self) -> Verified {
-        let mut reprocessed = 0;
-        if let Some(again) = self.again.take() {
-            let result = again.finish();
-            reprocessed = result.inputs - result.different;
-            for difference in result.differences.iter().take(20) {
-                let what = format!(
-                    "the detectors derive something else now from event #{}",
-                    difference.order
-                );
-                let segment = &self.recording.segments[self.segment];
-                self.find(Status::Nondeterministic, segment, what);
-            }
-        }
-        let worst = self.findings.iter().map(|finding| finding.status).max();
-        Verified {
-            status: worst.unwrap_or(Status::Intact),
-            hash: self.world.graph().hash(),
-            chain: self.chain.link(),
-            events: self.events,
-            checkpoints: self.checkpoints,
-            reprocessed,
-            findings: self.findings,
-            gaps: self.gaps,
         }
     }
 }

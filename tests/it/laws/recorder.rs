@@ -1,0 +1,93 @@
+//! Laws of the recorder: same inputs, same bytes; stops change nothing; a torn file is a prefix.
+
+use proptest::prelude::*;
+use scenefold::recording::{Recorder, RecorderOptions, Recording, Status, Walk, verify};
+use scenefold::time::At;
+use scenefold::updater::Config;
+
+use super::cases;
+use crate::house::{MANY_CHECKPOINTS, events, feed, inputs, record};
+
+proptest! {
+    #![proptest_config(cases(16))]
+
+    #[test]
+    fn equal_inputs_give_equal_bytes(inputs in inputs(5..80), chunk_after in 1..20_usize) {
+        let folder = tempfile::tempdir().unwrap();
+        let (a, b) = (folder.path().join("a.mcap"), folder.path().join("b.mcap"));
+        record(&a, &inputs, &MANY_CHECKPOINTS, chunk_after);
+        record(&b, &inputs, &MANY_CHECKPOINTS, chunk_after);
+        prop_assert_eq!(std::fs::read(a).unwrap(), std::fs::read(b).unwrap());
+    }
+
+    #[test]
+    fn segments_hold_what_one_file_would(
+        inputs in inputs(10..80),
+        cuts in prop::collection::vec(1..80_usize, 1..4),
+        finish: bool,
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let (written, seal) =
+            record(&folder.path().join("a.mcap"), &inputs, &RecorderOptions::default(), 1000);
+        let segments = folder.path().join("segments/");
+        let mut cuts: Vec<usize> = cuts.into_iter().map(|cut| cut % inputs.len()).collect();
+        cuts.sort_unstable();
+        let mut recorder =
+            Recorder::create(&segments, Config::default(), &MANY_CHECKPOINTS).unwrap();
+        let (mut found, mut from) = (Vec::new(), 0);
+        for cut in cuts {
+            found.extend(feed(&mut recorder, &inputs[from..cut.max(from)], 3));
+            from = from.max(cut);
+            if finish {
+                recorder.finish().unwrap();
+            } else {
+                // As a crash would leave it, right after an acknowledgement.
+                recorder.sync().unwrap();
+                drop(recorder);
+            }
+            recorder = Recorder::append(&segments, &MANY_CHECKPOINTS).unwrap();
+        }
+        found.extend(feed(&mut recorder, &inputs[from..], 3));
+        prop_assert_eq!(&found, &written);
+        let last = recorder.finish().unwrap();
+        prop_assert_eq!((last.events, last.changes), (seal.events, seal.changes));
+        prop_assert_eq!(last.state_hash, seal.state_hash);
+        let recording = Recording::open(&segments).unwrap();
+        prop_assert_eq!(events(&recording, Walk::Everything), written);
+        let expected = if finish { Status::Intact } else { Status::Truncated };
+        let verified = verify(&segments, &mut |_| ()).unwrap();
+        prop_assert_eq!(verified.status, expected, "{:?}", verified.findings);
+        prop_assert_eq!(verified.hash, seal.state_hash);
+    }
+
+    #[test]
+    fn a_truncated_recording_gives_a_prefix(
+        inputs in inputs(10..60),
+        chunk_after in 1..10_usize,
+        cuts in prop::collection::vec(0.0..1.0_f64, 40),
+    ) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.mcap");
+        record(&path, &inputs, &MANY_CHECKPOINTS, chunk_after);
+        let bytes = std::fs::read(&path).unwrap();
+        let whole = Recording::open(&path).unwrap();
+        let (all, everything) = (events(&whole, Walk::Events), events(&whole, Walk::Everything));
+        for cut in cuts {
+            let cut = (cut * bytes.len() as f64) as usize;
+            let Ok(torn) = Recording::from_bytes("torn", bytes[..cut].to_vec()) else {
+                prop_assert!(cut < 200, "cut at {} of {}", cut, bytes.len());
+                continue;
+            };
+            let found = events(&torn, Walk::Events);
+            prop_assert_eq!(&found[..], &all[..found.len()]);
+            // Images leave for the disk ahead of the events around them.
+            for logged in events(&torn, Walk::Everything) {
+                prop_assert_eq!(&logged, &everything[logged.order as usize - 1]);
+            }
+            let Some(last) = found.last() else { continue };
+            let state = torn.state_at(At::End, 1).unwrap();
+            let expected = whole.state_at(At::Event(last.order), 1).unwrap();
+            prop_assert_eq!(state.world, expected.world);
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! The integration tests: one binary, so that it is linked once.
+//!
+//! - `laws`: properties of the whole pipeline over random inputs.
+//! - `golden`: recordings of the past give the states they always gave.
+//! - `synthetic`: the recording that holds every primitive and every rejection.
+//! - `kill`: a recorder that is killed loses nothing it acknowledged.
+//! - `mutations`, `forged`: damaged and edited files.
+//! - `cli`: the program at its boundary.
+//! - `python`: other readers agree.
+//! - `tidy`: the shape of the sources.
+
+mod golden;
+mod house;
+mod kill;
+mod laws;
+mod sha256;
+mod synthetic;
+mod tidy;
+
+// What the strategies of the crate's own tests name as `crate::…`.
+use scenefold::{change, event, geometry, graph, time};
+
+#[allow(dead_code)]
+#[path = "../../src/testing.rs"]
+mod testing;
