@@ -33,7 +33,7 @@ mod proto {
 pub use change_record::MAX_EVIDENCE;
 pub use checkpoint::{
     CHECKPOINT_PEEK, CheckpointHead, CheckpointMessage, MAX_STATE, decode_checkpoint,
-    encode_checkpoint, peek_checkpoint,
+    encode_checkpoint, encode_packed_checkpoint, pack_state, peek_checkpoint,
 };
 pub use error::WireError;
 pub use inputs::MAX_UTTERANCE;
