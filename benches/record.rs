@@ -31,11 +31,9 @@ fn main() {
     let count = messages.headers.len() as u64;
     let mut times = best_of(
         5,
-        [
-            &mut || messages.write(&theirs, 0),
-            &mut || messages.write(&theirs, 1),
-            &mut || record(&inputs, &ours),
-        ],
+        [&mut || messages.write(&theirs, 0), &mut || messages.write(&theirs, 1), &mut || {
+            record(&inputs, &ours)
+        }],
     );
     for path in [&ours, &theirs] {
         let _ = remove_file(path);

@@ -26,8 +26,10 @@ fn main() {
     }
     let primitives = scaled(1_000_000);
     let log = Log { primitives, checkpoints: false, sensor_bytes: 0 };
-    against_zstd("household", &log.path(), primitives);
-    against_zstd("dense", &dense::path(primitives), primitives);
+    against_zstd("household", &log.path(), primitives, 2.5);
+    // Nothing but small edits, which compress to a third of what those of a household do: no
+    // target, but not to be lost sight of.
+    against_zstd("dense", &dense::path(primitives), primitives, 5.0);
     among_pictures(log);
     in_memory(log);
 }
@@ -39,7 +41,7 @@ fn replay(path: &Path, threads: usize) {
     assert_eq!(state.graph().object_count(), common::household::OBJECTS as usize);
 }
 
-fn against_zstd(name: &str, path: &Path, primitives: u64) {
+fn against_zstd(name: &str, path: &Path, primitives: u64, limit: f64) {
     let compressed = chunks::compressed(&chunks::open(path));
     let [zstd, one, two] = best_of(
         ROUNDS,
@@ -54,7 +56,7 @@ fn against_zstd(name: &str, path: &Path, primitives: u64) {
     tell_time(&format!("{name}: raw zstd"), zstd, primitives, "primitive");
     tell_time(&format!("{name}: replay, 1 thread"), one, primitives, "primitive");
     tell_time(&format!("{name}: replay, 2 threads"), two, primitives, "primitive");
-    tell_at_most(&format!("{name}: replay/zstd"), over(one, zstd), 2.5);
+    tell_at_most(&format!("{name}: replay/zstd"), over(one, zstd), limit);
     tell_at_least(&format!("{name}: 1 thread/2 threads"), over(one, two), 1.6);
 }
 
@@ -63,7 +65,11 @@ fn among_pictures(log: Log) {
     let megabytes = megabytes.and_then(|mb| mb.parse().ok()).unwrap_or(scaled(2_000));
     let (alone, among) = (log.path(), Log { sensor_bytes: megabytes << 20, ..log }.path());
     let [alone, among] = best_of(ROUNDS, [&mut || replay(&alone, 1), &mut || replay(&among, 1)]);
-    tell_at_most(&format!("replay among {megabytes} MB of pictures/alone"), over(among, alone), 1.2);
+    tell_at_most(
+        &format!("replay among {megabytes} MB of pictures/alone"),
+        over(among, alone),
+        1.2,
+    );
 }
 
 fn in_memory(log: Log) {

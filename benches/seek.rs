@@ -61,12 +61,9 @@ fn checkpoints(path: &std::path::Path) {
     let sizes = chunks::sizes(&chunks::open(path));
     let share = |of: u64, all: u64| 100.0 * of as f64 / all as f64;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ((events, events_stored), (_, stored)) = (sizes.events, sizes.stored);
-    println!("{name}: {events} event bytes, {events_stored} stored; checkpoints {stored} stored");
-    tell_at_most(&format!("{name}: checkpoints, % of event bytes"), share(stored, events), 10.0);
-    tell_at_most(
-        &format!("{name}: checkpoints, % of event bytes as stored"),
-        share(stored, events_stored),
-        10.0,
-    );
+    println!("{name}: {} bytes of events, {} in the file", sizes.events, sizes.events_in_file);
+    for (of, all) in [("event bytes", sizes.events), ("events in the file", sizes.events_in_file)] {
+        let value = share(sizes.checkpoints, all);
+        tell_at_most(&format!("{name}: checkpoints, % of {of}"), value, 10.0);
+    }
 }

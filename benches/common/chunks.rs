@@ -49,17 +49,20 @@ pub fn decompress(chunks: &[Compressed]) -> usize {
     total
 }
 
-/// Bytes of the chunks that are compressed, and of those that are stored: as messages, in the file.
+/// What events and checkpoints take in a log without sensor data.
 pub struct Sizes {
-    pub events: (u64, u64),
-    pub stored: (u64, u64),
+    /// Bytes of event messages.
+    pub events: u64,
+    /// Bytes of the file that are not checkpoints: event chunks and their indexes.
+    pub events_in_file: u64,
+    /// Bytes of checkpoints in the file.
+    pub checkpoints: u64,
 }
 
-/// What events and checkpoints take in a log without sensor data.
+/// Measures a log: events are compressed, checkpoints are stored as they are.
 pub fn sizes(log: &LogFile) -> Sizes {
-    let sum = |zstd: bool| {
-        let of = log.chunks().iter().filter(|entry| is_zstd(entry) == zstd);
-        of.fold((0, 0), |(body, file), e| (body + e.uncompressed_size, file + e.length))
-    };
-    Sizes { events: sum(true), stored: sum(false) }
+    let of = |zstd: bool| log.chunks().iter().filter(move |entry| is_zstd(entry) == zstd);
+    let checkpoints = of(false).map(|entry| entry.length).sum();
+    let events = of(true).map(|entry| entry.uncompressed_size).sum();
+    Sizes { events, events_in_file: log.source().len() - checkpoints, checkpoints }
 }

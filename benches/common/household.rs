@@ -105,7 +105,8 @@ fn by_id(index: u32) -> NodeRef {
 /// A picture that does not compress, as large as that of a camera.
 pub fn picture(dice: &mut Dice) -> Event {
     let schema = scenefold::wire::ros2::COMPRESSED_IMAGE;
-    let data: Vec<u8> = (0..PICTURE_BYTES / 4).flat_map(|_| dice.below(u32::MAX).to_le_bytes()).collect();
+    let data: Vec<u8> =
+        (0..PICTURE_BYTES / 4).flat_map(|_| dice.below(u32::MAX).to_le_bytes()).collect();
     Event::Sensor(SensorMessage {
         topic: "/camera/color/image/compressed".into(),
         message_encoding: schema.message_encoding.into(),

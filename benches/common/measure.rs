@@ -5,10 +5,7 @@ use std::time::{Duration, Instant};
 
 /// The best of `rounds` times of each of some jobs, run in turns, so that whatever else the
 /// machine does meets all of them alike.
-pub fn best_of<const N: usize>(
-    rounds: usize,
-    mut jobs: [&mut dyn FnMut(); N],
-) -> [Duration; N] {
+pub fn best_of<const N: usize>(rounds: usize, mut jobs: [&mut dyn FnMut(); N]) -> [Duration; N] {
     let mut best = [Duration::MAX; N];
     for _ in 0..rounds {
         for (job, best) in jobs.iter_mut().zip(&mut best) {

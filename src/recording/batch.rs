@@ -65,7 +65,14 @@ impl Batch {
         self.edits.clear();
     }
 
-    pub fn push(&mut self, kind: Kind, order: u64, log_time: u64, data: &[u8], labels: &mut Labels) {
+    pub fn push(
+        &mut self,
+        kind: Kind,
+        order: u64,
+        log_time: u64,
+        data: &[u8],
+        labels: &mut Labels,
+    ) {
         let at = Stamp::from_nanos(log_time);
         let effect = match kind {
             Kind::Ignored => return,

@@ -6,8 +6,8 @@ use crate::graph::StateHash;
 use crate::time::Stamp;
 use crate::updater::{Config, RestoreError, Updater};
 use crate::wire::{
-    CheckpointHead, CheckpointMessage, WireError, decode_checkpoint,
-    encode_packed_checkpoint, pack_state,
+    CheckpointHead, CheckpointMessage, WireError, decode_checkpoint, encode_packed_checkpoint,
+    pack_state,
 };
 
 /// Version of the message; one of another version is ignored.

@@ -233,9 +233,10 @@ impl Segment {
 
     /// The chunks that may hold events or sensor data.
     fn chunks_with_messages(&self) -> impl Iterator<Item = &ChunkEntry> {
-        self.log.chunks().iter().filter(|entry| {
-            self.events.iter().chain(&self.sensors).any(|id| entry.may_hold(*id))
-        })
+        self.log
+            .chunks()
+            .iter()
+            .filter(|entry| self.events.iter().chain(&self.sensors).any(|id| entry.may_hold(*id)))
     }
 
     /// What the fold makes of a message on `channel`.
@@ -248,7 +249,8 @@ impl Segment {
         let chunks = self.log.chunks();
         let places = self.event_chunks.get_or_init(|| {
             let holds = |entry: &ChunkEntry| self.events.iter().any(|id| entry.may_hold(*id));
-            let mut places: Vec<u32> = (0..).zip(chunks).filter(|(_, e)| holds(e)).map(|(n, _)| n).collect();
+            let mut places: Vec<u32> =
+                (0..).zip(chunks).filter(|(_, e)| holds(e)).map(|(n, _)| n).collect();
             places.sort_by_key(|n| (chunks[*n as usize].start_time, *n));
             places
         });

@@ -10,7 +10,8 @@ use super::batch::{Batch, Decoder};
 use super::open::Segment;
 use crate::container::{ChunkEntry, Damage};
 
-type Visitor<'v, 'e> = dyn FnMut(&'e ChunkEntry, Result<&mut Batch, Damage>) -> ControlFlow<()> + 'v;
+type Visitor<'v, 'e> =
+    dyn FnMut(&'e ChunkEntry, Result<&mut Batch, Damage>) -> ControlFlow<()> + 'v;
 
 /// Few chunks are not worth a thread.
 const WORTH_A_THREAD: usize = 4;

@@ -1,9 +1,9 @@
 //! [`State`]: what the robot believed at some point, by folding the recorded primitives.
 
+use super::batch::{Batch, Kind, Mark};
 use super::checkpoint::Checkpoint;
 use super::events::WalkError;
 use super::open::{Recording, Segment};
-use super::batch::{Batch, Kind, Mark};
 use super::parallel::for_each_chunk;
 use super::point::{Point, PointError};
 use crate::change::{Edit, World};
