@@ -1,7 +1,7 @@
 //! `scenefold diff`
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::Context;
 
@@ -13,6 +13,7 @@ use crate::geometry::Tolerance;
 use crate::graph::SceneGraph;
 use crate::history::{Diff as GraphDiff, DiffDocument};
 use crate::interchange::scene;
+use crate::recording::Recording;
 use crate::time::At;
 
 /// What changed between two points of a recording, or between two recordings
@@ -55,8 +56,13 @@ pub struct Diff {
 pub fn run(args: &Diff, out: &mut Output) -> anyhow::Result<Outcome> {
     let tolerance = args.tolerance()?;
     let default_from = if args.b.is_some() { At::End } else { At::Start };
-    let from = graph(&args.a, args.from.unwrap_or(default_from))?;
-    let to = graph(args.b.as_deref().unwrap_or(&args.a), args.to)?;
+    let a = Side::open(&args.a)?;
+    let from = a.graph(args.from.unwrap_or(default_from))?;
+    let to = match &args.b {
+        Some(b) => Side::open(b)?.graph(args.to)?,
+        // Opened once: standard input cannot be read twice.
+        None => a.graph(args.to)?,
+    };
     let compare = if args.observed { GraphDiff::complete } else { GraphDiff::between };
     let diff = compare(&from, &to, &tolerance);
     if args.json {
@@ -79,17 +85,33 @@ impl Diff {
     }
 }
 
-fn graph(path: &Path, at: At) -> anyhow::Result<SceneGraph> {
-    if path.as_os_str() == "-" || is_mcap(path) || !looks_like_json(path) {
-        let recording = source::open(path)?;
-        let state = state_at(&recording, at)?;
-        source::warn(&recording);
-        return Ok(state.world.graph().clone());
-    }
-    let import = scene::import(&text(path)?).with_context(|| path.display().to_string())?;
-    Ok(import.graph)
+/// What is compared: any state of a recording, or the one of a scene.
+enum Side {
+    Recording(Recording),
+    Scene(SceneGraph),
 }
 
-fn looks_like_json(path: &Path) -> bool {
+impl Side {
+    fn open(path: &PathBuf) -> anyhow::Result<Self> {
+        if path.as_os_str() == "-" || is_mcap(path) || !looks_like_json(path) {
+            return Ok(Self::Recording(source::open(path)?));
+        }
+        let import = scene::import(&text(path)?).with_context(|| path.display().to_string())?;
+        Ok(Self::Scene(import.graph))
+    }
+
+    fn graph(&self, at: At) -> anyhow::Result<SceneGraph> {
+        match self {
+            Self::Recording(recording) => {
+                let state = state_at(recording, at)?;
+                source::warn(recording);
+                Ok(state.world.graph().clone())
+            }
+            Self::Scene(graph) => Ok(graph.clone()),
+        }
+    }
+}
+
+fn looks_like_json(path: &PathBuf) -> bool {
     path.extension().is_some_and(|extension| extension == "json")
 }

@@ -1,9 +1,9 @@
 //! `scenefold export`
 
+use std::fs::File;
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::ValueEnum;
 
 use super::Outcome;
@@ -12,6 +12,7 @@ use super::replay::state_at;
 use super::source::{self, RecordingArg};
 use crate::interchange::scene::SceneDocument;
 use crate::interchange::{dot, spark_dsg};
+use crate::recording::RecordError;
 use crate::time::At;
 
 /// The graph for other tools
@@ -30,7 +31,7 @@ pub struct Export {
     /// The point: start, end, 12.5s, 36h, 65d, an RFC 3339 instant, #42, c7 or nanoseconds
     #[arg(long, value_name = "AT", default_value = "end")]
     at: At,
-    /// File to write instead of standard output
+    /// New file to write instead of standard output
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
@@ -56,9 +57,10 @@ pub fn run(args: &Export, out: &mut Output) -> anyhow::Result<Outcome> {
         Format::Dot => dot::export(graph),
     };
     match &args.out {
-        Some(path) => {
-            std::fs::write(path, text).with_context(|| path.display().to_string())?;
-        }
+        // Like everything here, it overwrites nothing: least of all the recording itself.
+        Some(path) => File::create_new(path)
+            .and_then(|mut file| file.write_all(text.as_bytes()))
+            .map_err(|error| RecordError::io(path, error))?,
         None => out.write_all(text.as_bytes())?,
     }
     Ok(source::warn(&recording))

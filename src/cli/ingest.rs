@@ -45,7 +45,7 @@ pub struct Ingest {
     #[arg(long, value_name = "GRAPH")]
     graph: Option<PathBuf>,
     /// When an update is acknowledged
-    #[arg(long, default_value = "never")]
+    #[arg(long, default_value = "none")]
     sync: Sync,
     /// With --sync interval: how often the disk is synced; with any policy: how long an update
     /// waits for an acknowledgement when no other follows
@@ -63,7 +63,8 @@ enum Sync {
     /// Once it is on the disk, which is synced at most every --interval
     Interval,
     /// Once the operating system has it
-    Never,
+    #[value(alias = "never")]
+    None,
 }
 
 #[derive(Serialize)]
@@ -175,7 +176,7 @@ impl Ingest {
         let sync = match self.sync {
             Sync::Every => SyncPolicy::Every,
             Sync::Interval => SyncPolicy::Interval(Duration::from_nanos(self.interval.0)),
-            Sync::Never => SyncPolicy::Never,
+            Sync::None => SyncPolicy::Never,
         };
         let options = RecorderOptions { sync, ..RecorderOptions::default() };
         let goes_on = self.out.is_dir() && std::fs::read_dir(&self.out)?.next().is_some();

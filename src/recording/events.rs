@@ -52,7 +52,7 @@ pub struct WalkError {
     error: LogError,
 }
 
-type RawVisitor<'v> = dyn FnMut(&Segment, RawEvent<'_>) -> ControlFlow<()> + 'v;
+type RawVisitor<'v, 'r> = dyn FnMut(&'r Segment, RawEvent<'_>) -> ControlFlow<()> + 'v;
 
 impl Recording {
     /// Visits the events numbered `first` to `last`, in order, until the visitor breaks.
@@ -73,11 +73,11 @@ impl Recording {
     }
 
     /// As [`Recording::visit_events`], before decoding.
-    pub(super) fn walk(
-        &self,
+    pub(super) fn walk<'r>(
+        &'r self,
         walk: Walk,
         (first, last): (u64, u64),
-        visitor: &mut RawVisitor<'_>,
+        visitor: &mut RawVisitor<'_, 'r>,
     ) -> Result<(), WalkError> {
         let numbered = self.is_numbered();
         let (from_segment, from_time) = match numbered {

@@ -44,4 +44,4 @@ pub use recover::{LostEvents, Recovered, recover};
 pub use reprocess::{Difference, ReprocessError, Reprocessed, UpdateSink, reprocess};
 pub use state::State;
 pub use summary::{ChannelSummary, Summary};
-pub use verify::{Finding, Status, Verified, verify};
+pub use verify::{Finding, Status, Verified, verify, verify_bytes};

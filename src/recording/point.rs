@@ -21,6 +21,11 @@ pub struct Point {
 impl Point {
     const END: Self = Self { last_order: u64::MAX, last_time: Stamp::MAX, moment: None };
 
+    /// Whether it is after everything.
+    pub fn is_end(&self) -> bool {
+        *self == Self::END
+    }
+
     fn order(last_order: u64) -> Self {
         Self { last_order, ..Self::END }
     }

@@ -99,7 +99,7 @@ pub enum RecordError {
 
 impl RecordError {
     /// What the file system said of `path`, and how to mend it.
-    pub(super) fn io(path: &Path, error: io::Error) -> Self {
+    pub fn io(path: &Path, error: io::Error) -> Self {
         let path = path.to_owned();
         match error.kind() {
             io::ErrorKind::AlreadyExists => Self::Exists { path },

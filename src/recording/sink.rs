@@ -9,9 +9,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::chain::{Chain, Link};
+use super::chain::Chain;
 use super::checkpoint::Checkpoint;
-use super::meta::{Meta, Seal};
+use super::meta::{Ending, Meta, Seal};
 use super::recorder::{RecordError, RecorderOptions, SyncPolicy};
 use crate::container::{ChannelHandle, ChannelSpec, ChunkClass, LogOptions, LogWriter, SchemaSpec};
 use crate::event::{Event, Logged, SensorMessage, Topic};
@@ -29,6 +29,7 @@ pub(super) struct Sink {
     channels: BTreeMap<Topic, ChannelHandle>,
     sensors: BTreeMap<SensorChannel, (ChannelHandle, ChunkClass)>,
     chain: Chain,
+    meta: Meta,
     payload: Vec<u8>,
     /// Messages accepted by the writer up to which which event is complete.
     pending: VecDeque<(u64, u64)>,
@@ -71,7 +72,8 @@ impl Sink {
             sync: options.sync,
             channels: BTreeMap::new(),
             sensors: BTreeMap::new(),
-            chain: Chain::after(meta.chain),
+            chain: Chain::after(meta.first_link()),
+            meta: meta.clone(),
             payload: Vec::new(),
             pending: VecDeque::new(),
             open_bytes: 0,
@@ -130,11 +132,8 @@ impl Sink {
         let sequence = u32::try_from(order).map_err(|_| RecordError::Full { order })?;
         let (at, published) = (logged.at.nanos(), logged.published.nanos());
         self.writer.write(handle, sequence, at, published, data)?;
-        if class == ChunkClass::Event {
-            self.chain.add(&logged.event.topic().name(), order, at, published, data);
-            return Ok(data.len() as u64 + 31);
-        }
-        Ok(0)
+        self.chain.add(&logged.event.topic().name(), order, at, published, data);
+        Ok(if class == ChunkClass::Event { data.len() as u64 + 31 } else { 0 })
     }
 
     /// Writes a checkpoint of the state after the last event, and closes the link of the chain.
@@ -179,9 +178,8 @@ impl Sink {
         state_hash: StateHash,
     ) -> Result<Seal, RecordError> {
         self.flush()?;
-        let chain: Link = self.chain.link();
-        let primitives = self.primitives;
-        let seal = Seal { events, changes, primitives, chain, state_hash };
+        let (link, primitives, meta) = (self.chain.link(), self.primitives, &self.meta);
+        let seal = Ending { events, changes, primitives, link, state_hash, meta }.seal();
         let (name, map) = seal.record();
         self.writer.write_metadata(name, map)?;
         let file = self.writer.finish()?;

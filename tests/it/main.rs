@@ -9,10 +9,14 @@
 //! - `python`: other readers agree.
 //! - `tidy`: the shape of the sources.
 
+mod cli;
+mod forged;
 mod golden;
 mod house;
 mod kill;
 mod laws;
+mod mutations;
+mod python;
 mod sha256;
 mod synthetic;
 mod tidy;

@@ -7,6 +7,7 @@ use crate::event::{Event, Logged, Topic};
 use crate::recording::chain::Chain;
 use crate::recording::checkpoint::Checkpoint;
 use crate::recording::events::{RawEvent, decode};
+use crate::recording::meta::{Ending, Meta, Seal};
 use crate::recording::open::Segment;
 use crate::recording::reprocess::{Again, ReprocessError};
 use crate::updater::Config;
@@ -42,19 +43,17 @@ impl Check<'_> {
     }
 
     fn begin(&mut self, n: usize, segment: &Segment) {
-        let (Some(meta), true) = (&segment.meta, n > 0) else { return };
-        if meta.chain != self.chain.link() && !self.broken {
-            let what = format!(
-                "its chain goes on from {}, the segment before ends with {}",
-                meta.chain,
-                self.chain.link()
-            );
-            // After a crash the segment before may lack what was never acknowledged.
-            let torn = !self.recording.segments[n - 1].log.is_finished();
-            let status = if torn { Status::Truncated } else { Status::Tampered };
-            self.find(status, segment, what);
+        self.primitives = 0;
+        if let Some(order) = segment.meta.as_ref().and_then(|meta| meta.edited) {
+            let what = format!("it was recovered from one that was edited before event #{order}");
+            self.find(Status::Tampered, segment, what);
         }
-        self.chain = Chain::after(meta.chain);
+        let Some(meta) = segment.meta.as_ref().filter(|_| n > 0) else { return };
+        if self.ended.is_some_and(|ended| ended != meta.chain) && !self.lost {
+            let what = "it does not go on where the segment before it ends".to_owned();
+            self.find(Status::Tampered, segment, what);
+        }
+        self.chain = Chain::after(segment.first_link());
     }
 
     fn message(&mut self, segment: &Segment, topic: &Topic, message: &RawMessage<'_>) {
@@ -67,17 +66,15 @@ impl Check<'_> {
             return;
         }
         self.events += 1;
-        let numbered = segment.meta.is_some();
+        let numbered = segment.is_numbered();
         let order = if numbered { u64::from(message.sequence) } else { self.order + 1 };
         self.number(segment, order);
-        if event {
-            let (at, published) = (message.log_time, message.publish_time);
-            self.chain.add(&topic.name(), order, at, published, message.data);
-        }
+        let (at, published) = (message.log_time, message.publish_time);
+        self.chain.add(&topic.name(), order, at, published, message.data);
         match decode(segment, RawEvent::of(order, topic, message)) {
             Ok(logged) => self.event(segment, &logged),
             Err(error) => {
-                self.broken = true;
+                self.miss();
                 self.find(Status::Corrupt, segment, format!("event #{order}: {error}"));
             }
         }
@@ -87,27 +84,40 @@ impl Check<'_> {
     fn number(&mut self, segment: &Segment, order: u64) {
         let expected = self.order + 1;
         if order != expected {
-            self.broken = true;
-            self.again = None;
-            if !self.gaps.contains(&self.order) {
-                let what = match order > expected {
-                    true => format!("events #{expected} to #{} are missing", order - 1),
-                    false => format!("event #{order} stands after #{}", self.order),
-                };
-                let damaged = self.findings.iter().any(|f| f.status == Status::Corrupt)
-                    || !self.recording.trouble().is_empty();
-                // Missing events without any damage were cut out on purpose.
-                let status = if damaged { Status::Corrupt } else { Status::Tampered };
-                self.find(status, segment, what);
-            }
+            let what = match order > expected {
+                true => format!("events #{expected} to #{} are missing", order - 1),
+                false => format!("event #{order} stands after #{}", self.order),
+            };
+            self.gap(segment, what);
         }
         self.order = order;
+    }
+
+    /// Something is missing after the last event; a recovered recording may have told so.
+    fn gap(&mut self, segment: &Segment, what: String) {
+        self.broken = true;
+        self.again = None;
+        if self.gaps.contains(&self.order) {
+            return;
+        }
+        self.miss();
+        let damaged = self.findings.iter().any(|f| f.status == Status::Corrupt)
+            || !self.recording.trouble().is_empty();
+        // Missing events without any damage were cut out on purpose.
+        let status = if damaged { Status::Corrupt } else { Status::Tampered };
+        self.find(status, segment, what);
+    }
+
+    fn miss(&mut self) {
+        (self.broken, self.lost, self.ever_lost) = (true, true, true);
     }
 
     fn event(&mut self, segment: &Segment, logged: &Logged) {
         match &logged.event {
             Event::InitialGraph(graph) => self.world = World::from_graph(graph.clone()),
+            Event::Change(record) => self.changes = record.seq,
             Event::Transaction(transaction) => {
+                self.primitives += transaction.steps.len() as u64;
                 if let Err(error) = transaction.apply(&mut self.world)
                     && !self.broken
                 {
@@ -134,12 +144,25 @@ impl Check<'_> {
                 return self.find(Status::Corrupt, segment, what);
             }
         };
-        if self.broken || checkpoint.order != self.order {
+        if self.broken {
             return self.mend(segment, &checkpoint);
         }
+        if checkpoint.order != self.order {
+            let (says, stands) = (checkpoint.order, self.order);
+            let what = format!("a checkpoint after event #{stands} says it stands after #{says}");
+            return self.find(Status::Tampered, segment, what);
+        }
         self.compare_state(segment, &checkpoint);
+        self.compare_link(segment, &checkpoint);
+    }
+
+    fn compare_link(&mut self, segment: &Segment, checkpoint: &Checkpoint) {
         if self.chain.close() == checkpoint.chain {
             self.checkpoints += 1;
+        } else if self.damaged {
+            // A link was made at a checkpoint that cannot be read.
+            self.ever_lost = true;
+            self.chain = Chain::after(checkpoint.chain);
         } else {
             let what = format!("the hash chain does not hold up to event #{}", self.order);
             self.find(Status::Tampered, segment, what);
@@ -160,16 +183,20 @@ impl Check<'_> {
         }
     }
 
-    /// After a gap, everything goes on from what the checkpoint says.
+    /// After a gap, the states go on from what the checkpoint says. The chain goes on by itself
+    /// if the recording knows of the gap, for then its links were made over it.
     fn mend(&mut self, segment: &Segment, checkpoint: &Checkpoint) {
+        if checkpoint.order > self.order {
+            let (first, last) = (self.order + 1, checkpoint.order);
+            self.gap(segment, format!("events #{first} to #{last} are missing"));
+            self.order = last;
+        }
         let config = segment.meta.as_ref().map_or_else(Config::default, |m| m.config.clone());
         match (checkpoint.world(), checkpoint.updater(config)) {
             (Ok(world), Ok(updater)) => {
                 self.world = world;
                 self.again = Some(Again::new(updater));
-                self.chain = Chain::after(checkpoint.chain);
                 self.broken = false;
-                self.checkpoints += 1;
             }
             (world, _) => {
                 let why = world.err().map_or(String::new(), |error| error.to_string());
@@ -177,33 +204,56 @@ impl Check<'_> {
                 self.find(Status::Corrupt, segment, what);
             }
         }
+        if self.lost {
+            self.lost = false;
+            self.checkpoints += 1;
+            self.chain = Chain::after(checkpoint.chain);
+        } else {
+            self.compare_link(segment, checkpoint);
+        }
     }
 
     fn end(&mut self, segment: &Segment, lost: bool) {
-        self.broken |= lost && segment.seal.is_none();
-        let Some(seal) = segment.seal else {
+        if lost {
+            self.miss();
+        }
+        self.ended = Some(self.chain.link());
+        let Some(stored) = segment.seal else {
             if segment.meta.is_some() && segment.log.is_finished() {
-                let what = "the record of how it should end is missing".to_owned();
-                self.find(Status::Corrupt, segment, what);
+                let what = "the seal it was ended with is missing".to_owned();
+                self.find(Status::Tampered, segment, what);
             }
             return;
         };
-        if seal.events != self.order {
-            let what =
-                format!("it should end with event #{}, but ends with #{}", seal.events, self.order);
-            self.find(Status::Tampered, segment, what);
+        let found = Ending {
+            events: self.order,
+            changes: self.changes,
+            primitives: self.primitives,
+            link: self.chain.link(),
+            state_hash: self.world.graph().hash(),
+            meta: segment.meta.as_ref().unwrap_or(&Meta::default()),
+        }
+        .seal();
+        self.ended = Some(found.chain);
+        self.compare_seal(segment, &stored, &found);
+    }
+
+    fn compare_seal(&mut self, segment: &Segment, stored: &Seal, found: &Seal) {
+        if stored.events != found.events {
+            let (should, does) = (stored.events, found.events);
+            let what = format!("it should end with event #{should}, but ends with #{does}");
+            let status = if self.ever_lost { Status::Corrupt } else { Status::Tampered };
+            return self.find(status, segment, what);
+        }
+        if self.lost || self.ever_lost {
             return;
         }
-        if self.broken {
-            return;
-        }
-        if seal.chain != self.chain.link() {
-            let what = "the hash chain does not hold up to the end".to_owned();
-            self.find(Status::Tampered, segment, what);
-        }
-        if seal.state_hash != self.world.graph().hash() {
+        if stored.state_hash != found.state_hash {
             let what = "the fold does not give the state the recording ended with".to_owned();
             self.find(Status::Nondeterministic, segment, what);
+        } else if stored != found {
+            let what = "the hash chain does not hold up to the end".to_owned();
+            self.find(Status::Tampered, segment, what);
         }
     }
 }

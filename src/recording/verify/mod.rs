@@ -59,8 +59,9 @@ pub struct Verified {
     pub status: Status,
     /// Hash of the graph after the last intact event.
     pub hash: StateHash,
-    /// Link of the chain after the last intact event; compare it with one kept elsewhere.
-    pub chain: Link,
+    /// The seal of the chain, or its last link where the recording has no seal; compare it with
+    /// one kept elsewhere. `None` if events are lost: then nobody can tell.
+    pub chain: Option<Link>,
     /// How many events were read.
     pub events: u64,
     /// How many checkpoints were found to be right.
@@ -77,15 +78,26 @@ pub struct Verified {
 /// and checksums, the hash chain, the states at checkpoints and at the end by folding, and the
 /// derived records by running the detectors again. `progress` is told the events read so far.
 pub fn verify(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<Verified, OpenError> {
-    let recording = Recording::scan(path)?;
-    let mut check = Check::new(&recording);
+    Ok(verify_opened(&Recording::scan(path)?, &Recording::open(path)?, progress))
+}
+
+/// As [`verify`], of a recording in memory.
+pub fn verify_bytes(name: &str, bytes: Vec<u8>) -> Result<Verified, OpenError> {
+    let opened = Recording::from_bytes(name, bytes.clone())?;
+    Ok(verify_opened(&Recording::scan_bytes(name, bytes)?, &opened, &mut |_| {}))
+}
+
+/// A scan does not look at the indexes, opening does; both must tell the same.
+fn verify_opened(
+    scanned: &Recording,
+    opened: &Recording,
+    progress: &mut dyn FnMut(u64),
+) -> Verified {
+    let mut check = Check::new(scanned);
     check.structure();
-    // A scan does not look at the indexes; opening does.
-    for segment in &Recording::open(path)?.segments {
-        check.damages(segment, segment.log.damage());
-    }
+    check.compare_indexes(opened);
     check.contents(progress);
-    Ok(check.verdict())
+    check.verdict()
 }
 
 struct Check<'r> {
@@ -97,9 +109,17 @@ struct Check<'r> {
     order: u64,
     events: u64,
     checkpoints: u64,
-    /// Something before here is lost: the chain and the states cannot be compared until a
-    /// checkpoint.
+    /// Something before here is missing: states cannot be compared until a checkpoint.
     broken: bool,
+    /// Something is missing that the recording does not know of: links cannot be compared.
+    lost: bool,
+    ever_lost: bool,
+    /// Some chunk cannot be read.
+    damaged: bool,
+    changes: u64,
+    primitives: u64,
+    /// Where the last segment ended.
+    ended: Option<Link>,
     segment: usize,
     gaps: Vec<u64>,
 }
@@ -107,7 +127,7 @@ struct Check<'r> {
 impl<'r> Check<'r> {
     pub(super) fn new(recording: &'r Recording) -> Self {
         let config = recording.meta().map_or_else(Config::default, |meta| meta.config.clone());
-        let first = recording.meta().map_or(GENESIS, |meta| meta.chain);
+        let first = recording.segments.first().map_or(GENESIS, Segment::first_link);
         let gaps = recording.segments.iter().filter_map(|segment| segment.meta.as_ref());
         Self {
             recording,
@@ -119,6 +139,12 @@ impl<'r> Check<'r> {
             events: 0,
             checkpoints: 0,
             broken: false,
+            lost: false,
+            ever_lost: false,
+            damaged: false,
+            changes: 0,
+            primitives: 0,
+            ended: None,
             segment: 0,
             gaps: gaps.flat_map(|meta| meta.gaps.clone()).collect(),
         }
@@ -150,7 +176,7 @@ impl<'r> Check<'r> {
         Verified {
             status: worst.unwrap_or(Status::Intact),
             hash: self.world.graph().hash(),
-            chain: self.chain.link(),
+            chain: self.ended.filter(|_| !self.ever_lost),
             events: self.events,
             checkpoints: self.checkpoints,
             reprocessed,

@@ -1,8 +1,8 @@
 //! What can be told without understanding the messages: records, checksums, indexes.
 
 use super::{Check, Status};
-use crate::container::{ChunkBuffer, DamageKind, DamageList};
-use crate::recording::open::Segment;
+use crate::container::{ChunkBuffer, ChunkEntry, DamageKind, DamageList};
+use crate::recording::open::{Recording, Segment};
 
 impl Check<'_> {
     pub(super) fn structure(&mut self) {
@@ -24,12 +24,27 @@ impl Check<'_> {
         }
     }
 
+    /// The summary says where the chunks are and what is in them; readers believe it.
+    pub(super) fn compare_indexes(&mut self, opened: &Recording) {
+        for (segment, indexed) in self.recording.segments.iter().zip(&opened.segments) {
+            self.damages(segment, indexed.log.damage());
+            let (scanned, told) = (segment.log.chunks(), indexed.log.chunks());
+            let lies = scanned.len() != told.len()
+                || scanned.iter().zip(told).any(|(a, b)| !same_chunk(a, b));
+            if lies {
+                let what = "the summary does not describe the chunks of the file".to_owned();
+                self.find(Status::Corrupt, segment, what);
+            }
+        }
+    }
+
     /// Other programs seek by message indexes, so they are looked at though nothing here is.
     fn indexes(&mut self, segment: &Segment) {
         let mut buffer = ChunkBuffer::new();
         for entry in segment.log.chunks() {
-            // What is wrong with the chunk itself shows when its messages are read.
-            if segment.log.read_chunk_into(entry, &mut buffer).is_err() {
+            if let Err(damage) = segment.log.read_chunk_into(entry, &mut buffer) {
+                self.damaged = true;
+                self.find(Status::Corrupt, segment, damage.to_string());
                 continue;
             }
             if let Err(damage) = segment.log.check_indexes(entry, &buffer) {
@@ -49,4 +64,15 @@ impl Check<'_> {
             self.find(status, segment, damage.to_string());
         }
     }
+}
+
+fn same_chunk(a: &ChunkEntry, b: &ChunkEntry) -> bool {
+    let channels = |entry: &ChunkEntry| {
+        entry.channels.as_ref().map(|channels| channels.keys().copied().collect::<Vec<u16>>())
+    };
+    (a.offset, a.length, a.start_time, a.end_time, a.uncompressed_size)
+        == (b.offset, b.length, b.start_time, b.end_time, b.uncompressed_size)
+        && a.compression == b.compression
+        // Files without message indexes tell what is in a chunk in one of the two places only.
+        && channels(a).zip(channels(b)).is_none_or(|(a, b)| a == b)
 }

@@ -1,15 +1,16 @@
 //! Laws of the recorder: same inputs, same bytes; stops change nothing; a torn file is a prefix.
 
 use proptest::prelude::*;
-use scenefold::recording::{Recorder, RecorderOptions, Recording, Status, Walk, verify};
+use scenefold::event::{Event, Logged};
+use scenefold::recording::{Recorder, RecorderOptions, Recording, Status, Walk, recover, verify};
 use scenefold::time::At;
 use scenefold::updater::Config;
 
 use super::cases;
-use crate::house::{MANY_CHECKPOINTS, events, feed, inputs, record};
+use crate::house::{Input, MANY_CHECKPOINTS, events, feed, inputs, record};
 
 proptest! {
-    #![proptest_config(cases(16))]
+    #![proptest_config(cases(40))]
 
     #[test]
     fn equal_inputs_give_equal_bytes(inputs in inputs(5..80), chunk_after in 1..20_usize) {
@@ -58,6 +59,50 @@ proptest! {
         let verified = verify(&segments, &mut |_| ()).unwrap();
         prop_assert_eq!(verified.status, expected, "{:?}", verified.findings);
         prop_assert_eq!(verified.hash, seal.state_hash);
+    }
+
+    #[test]
+    fn a_torn_segment_is_gone_on_with(
+        inputs in inputs(20..50),
+        chunk_after in 1..6_usize,
+        cuts in prop::collection::vec(0.0..1.0_f64, 8),
+    ) {
+        // Images leave for the disk ahead of the events around them: see above.
+        let inputs: Vec<Input> = inputs
+            .into_iter()
+            .filter(|(_, event)| !matches!(event, Event::Sensor(_)))
+            .collect();
+        for cut in cuts {
+            let scratch = tempfile::tempdir().unwrap();
+            let folder = scratch.path().join("segments/");
+            let mut recorder =
+                Recorder::create(&folder, Config::default(), &MANY_CHECKPOINTS).unwrap();
+            let written = feed(&mut recorder, &inputs[..10], chunk_after);
+            recorder.finish().unwrap();
+            let mut recorder = Recorder::append(&folder, &MANY_CHECKPOINTS).unwrap();
+            let all: Vec<Logged> =
+                [written, feed(&mut recorder, &inputs[10..], chunk_after)].concat();
+            recorder.finish().unwrap();
+            let torn = folder.join("segment-000002.mcap");
+            let bytes = std::fs::read(&torn).unwrap();
+            std::fs::write(&torn, &bytes[..(cut * bytes.len() as f64) as usize]).unwrap();
+            let verified = verify(&folder, &mut |_| ()).unwrap();
+            let fine = matches!(verified.status, Status::Intact | Status::Truncated);
+            prop_assert!(fine, "{:?} {:?}", verified.status, verified.findings);
+            // What the crash took is sent again.
+            let left = events(&Recording::open(&folder).unwrap(), Walk::Events);
+            prop_assert_eq!(&left[..], &all[..left.len()]);
+            let kept = left.iter().filter(|logged| logged.event.is_input()).count();
+            let mut recorder = Recorder::append(&folder, &MANY_CHECKPOINTS).unwrap();
+            feed(&mut recorder, &inputs[kept..], chunk_after);
+            recorder.finish().unwrap();
+            let whole = Recording::open(&folder).unwrap();
+            prop_assert_eq!(events(&whole, Walk::Everything), all);
+            let saved = scratch.path().join("saved.mcap");
+            recover(&Recording::scan(&folder).unwrap(), &saved, &mut |_| ()).unwrap();
+            let intact = verify(&saved, &mut |_| ()).unwrap();
+            prop_assert_eq!(intact.status, Status::Intact, "{:?}", intact.findings);
+        }
     }
 
     #[test]
