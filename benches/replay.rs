@@ -9,19 +9,25 @@ mod common;
 
 use std::path::Path;
 
+use common::household::{house, node};
 use common::logs::Log;
 use common::measure::{
     best_of, child_job, over, peak_mib, tell_at_least, tell_at_most, tell_peak, tell_time,
 };
 use common::{chunks, dense, scaled};
+use scenefold::graph::{Layer, SceneGraph};
 use scenefold::recording::Recording;
 use scenefold::time::At;
 
 const ROUNDS: usize = 7;
+const SPARSE: &str = "sparse";
 
 fn main() {
-    if let Some(path) = child_job() {
-        replay(Path::new(&path), 2);
+    if let Some(job) = child_job() {
+        match job.as_str() {
+            SPARSE => drop(sparse()),
+            path => replay(Path::new(path), 2),
+        }
         return tell_peak();
     }
     let primitives = scaled(1_000_000);
@@ -72,7 +78,21 @@ fn among_pictures(log: Log) {
     );
 }
 
+/// As many objects as a graph takes, their numbers far apart.
+fn sparse() -> SceneGraph {
+    let mut graph = house();
+    let object = graph.object(node(Layer::Object, 0)).expect("the house is furnished").clone();
+    for n in 1_000..1_000_000 {
+        let id = node(Layer::Object, n * 16);
+        graph.insert_object(id, object.clone()).expect("a new object");
+    }
+    graph
+}
+
 fn in_memory(log: Log) {
+    if let Some(mib) = peak_mib(SPARSE) {
+        tell_at_most("peak MiB of a million sparse objects", mib, 400.0);
+    }
     for factor in [1, 10] {
         let primitives = log.primitives * factor;
         let path = Log { primitives, ..log }.path();

@@ -1,8 +1,8 @@
-//! The edits of a graph. Each succeeds whole or is refused and changes nothing.
+//! The edits of objects. Each succeeds whole or is refused and changes nothing.
 
 use super::{
-    GraphError, Layer, NodeId, Object, PoseSource, Region, SceneGraph,
-    slots::{ObjectSlot, RegionSlot, Slots},
+    GraphError, Layer, NodeId, Object, PoseSource, SceneGraph,
+    slots::ObjectSlot,
 };
 use crate::geometry::{Pose, Size};
 use crate::time::Stamp;
@@ -69,7 +69,7 @@ impl Hold {
 
 impl ObjectSlot {
     /// The count of what rests on it, held or not.
-    fn count(&mut self, held: bool) -> &mut u32 {
+    pub(super) fn count(&mut self, held: bool) -> &mut u32 {
         if held { &mut self.resting_held } else { &mut self.resting }
     }
 }
@@ -141,59 +141,6 @@ impl SceneGraph {
         Ok(self.put_over(id, object))
     }
 
-    /// Puts an object back to where it was before edits that have been taken back since: that
-    /// state was allowed, so nothing is refused.
-    pub(crate) fn put_back(&mut self, id: NodeId, placement: &Placement) {
-        self.put_at(id, placement);
-    }
-
-    /// As [`Self::put_back`], for an object that was replaced.
-    pub(crate) fn put_back_over(&mut self, id: NodeId, object: Object) {
-        self.put_over(id, object);
-    }
-
-    /// As [`Self::put_back`], for an object that was taken out.
-    pub(crate) fn put_back_in(&mut self, id: NodeId, object: Object) {
-        self.put_in(id, object);
-    }
-
-    /// Puts objects that rest on nothing yet on their supports, all at once, so that a pile may
-    /// come in any order. On error the graph is half done and of no use.
-    pub(crate) fn set_supports(
-        &mut self,
-        supports: &[(NodeId, NodeId)],
-    ) -> Result<(), GraphError> {
-        for (id, support) in supports {
-            let held = self.object_slot(*id)?.object.is_held();
-            self.check_holds(*support, held)?;
-            let slot = self.objects.get_mut(id.index()).expect("just read");
-            slot.object.support = Some(*support);
-            let on = self.objects.get_mut(support.index()).expect("just seen to be there");
-            *on.count(held) += 1;
-        }
-        self.check_acyclic(supports)
-    }
-
-    /// Each object is passed once: what is known to stand on the ground ends a way down.
-    fn check_acyclic(&self, supports: &[(NodeId, NodeId)]) -> Result<(), GraphError> {
-        let mut passed = vec![0_u32; self.objects.places()];
-        for (n, (id, support)) in (1..).zip(supports) {
-            let mut below = Some(*id);
-            while let Some(next) = below {
-                let place = self.objects.place(next.index()).expect("supports are there");
-                match passed[place] {
-                    0 => passed[place] = n,
-                    mark if mark == n => {
-                        return Err(GraphError::SupportCycle { id: *id, support: *support });
-                    }
-                    _ => break,
-                }
-                below = self.object(next).and_then(|object| object.support);
-            }
-        }
-        Ok(())
-    }
-
     /// Notes that an object was seen at `at`, with better geometry where given.
     pub fn observe_object(
         &mut self,
@@ -223,66 +170,13 @@ impl SceneGraph {
         Ok(())
     }
 
-    /// Adds a room, floor or building under a new id.
-    pub fn insert_region(&mut self, id: NodeId, region: Region) -> Result<(), GraphError> {
-        if id.layer() == Layer::Object {
-            return Err(GraphError::WrongLayer { id, found: Layer::Object, expected: Layer::Room });
-        }
-        if self.region(id).is_some() {
-            return Err(GraphError::DuplicateNode { id });
-        }
-        check_room_for(id.layer(), self.regions_mut(id.layer()).len())?;
-        if let Some(parent) = region.parent {
-            if parent.layer() <= id.layer() {
-                return Err(GraphError::LayerOrder { parent, child: id });
-            }
-            self.region_slot(parent)?.children += 1;
-        }
-        let slot = RegionSlot { region, children: 0 };
-        self.regions_mut(id.layer()).insert(id.index(), slot).expect("seen to be free");
-        Ok(())
-    }
-
-    /// Takes a region out; nothing may belong to it and it may give access to nothing.
-    pub fn remove_region(&mut self, id: NodeId) -> Result<Region, GraphError> {
-        if self.region(id).is_none() {
-            return Err(GraphError::UnknownNode { id });
-        }
-        let count = self.region_slot(id)?.children as usize + self.access_from(id).count();
-        if count > 0 {
-            return Err(GraphError::StillContains { id, count });
-        }
-        let removed = self.regions_mut(id.layer()).remove(id.index()).expect("seen to be full");
-        if let Some(parent) = removed.region.parent {
-            self.region_slot(parent).expect("a parent outlives its children").children -= 1;
-        }
-        Ok(removed.region)
-    }
-
-    /// Connects two rooms by access, in both directions; connecting twice is connecting once.
-    pub fn connect(&mut self, a: NodeId, b: NodeId) -> Result<(), GraphError> {
-        if a == b {
-            return Err(GraphError::SelfAccess { id: a });
-        }
-        self.check_room(a)?;
-        self.check_room(b)?;
-        self.access.extend([(a, b), (b, a)]);
-        Ok(())
-    }
-
-    /// Takes the access between two rooms away, if there is any.
-    pub fn disconnect(&mut self, a: NodeId, b: NodeId) {
-        self.access.remove(&(a, b));
-        self.access.remove(&(b, a));
-    }
-
-    fn put_in(&mut self, id: NodeId, object: Object) {
+    pub(super) fn put_in(&mut self, id: NodeId, object: Object) {
         self.count_on(Hold::of(&object), 1);
         let slot = ObjectSlot { object, resting: 0, resting_held: 0 };
         self.objects.insert(id.index(), slot).expect("the slot was seen to be free");
     }
 
-    fn put_at(&mut self, id: NodeId, to: &Placement) {
+    pub(super) fn put_at(&mut self, id: NodeId, to: &Placement) {
         let slot = self.objects.get_mut(id.index()).expect("it was seen to be there");
         let object = &mut slot.object;
         let before = Hold::of(object);
@@ -298,7 +192,7 @@ impl SceneGraph {
         }
     }
 
-    fn put_over(&mut self, id: NodeId, object: Object) -> Object {
+    pub(super) fn put_over(&mut self, id: NodeId, object: Object) -> Object {
         let slot = self.objects.get_mut(id.index()).expect("it was seen to be there");
         let after = Hold::of(&object);
         let before = std::mem::replace(&mut slot.object, object);
@@ -329,7 +223,7 @@ impl SceneGraph {
         Ok(())
     }
 
-    fn check_room(&self, room: NodeId) -> Result<(), GraphError> {
+    pub(super) fn check_room(&self, room: NodeId) -> Result<(), GraphError> {
         expect_layer(room, Layer::Room)?;
         let known = self.rooms.get(room.index()).is_some();
         if known { Ok(()) } else { Err(GraphError::UnknownNode { id: room }) }
@@ -365,14 +259,14 @@ impl SceneGraph {
     }
 
     /// `support` is an object, and held only if what rests on it is.
-    fn check_holds(&self, support: NodeId, held: bool) -> Result<(), GraphError> {
+    pub(super) fn check_holds(&self, support: NodeId, held: bool) -> Result<(), GraphError> {
         if self.object_slot(support)?.object.is_held() && !held {
             return Err(GraphError::Held { id: support });
         }
         Ok(())
     }
 
-    fn object_slot(&self, id: NodeId) -> Result<&ObjectSlot, GraphError> {
+    pub(super) fn object_slot(&self, id: NodeId) -> Result<&ObjectSlot, GraphError> {
         expect_layer(id, Layer::Object)?;
         self.objects.get(id.index()).ok_or(GraphError::UnknownNode { id })
     }
@@ -383,23 +277,6 @@ impl SceneGraph {
         }
         Ok(&mut self.objects.get_mut(id.index()).expect("just read").object)
     }
-
-    fn region_slot(&mut self, id: NodeId) -> Result<&mut RegionSlot, GraphError> {
-        let unknown = GraphError::UnknownNode { id };
-        if id.layer() == Layer::Object {
-            return Err(unknown);
-        }
-        self.regions_mut(id.layer()).get_mut(id.index()).ok_or(unknown)
-    }
-
-    fn regions_mut(&mut self, layer: Layer) -> &mut Slots<RegionSlot> {
-        match layer {
-            Layer::Object => unreachable!("callers have refused objects"),
-            Layer::Room => &mut self.rooms,
-            Layer::Floor => &mut self.floors,
-            Layer::Building => &mut self.buildings,
-        }
-    }
 }
 
 fn expect_layer(id: NodeId, expected: Layer) -> Result<(), GraphError> {
@@ -408,7 +285,7 @@ fn expect_layer(id: NodeId, expected: Layer) -> Result<(), GraphError> {
 }
 
 /// Whether a layer that holds `count` nodes takes another.
-fn check_room_for(layer: Layer, count: usize) -> Result<(), GraphError> {
+pub(super) fn check_room_for(layer: Layer, count: usize) -> Result<(), GraphError> {
     if count < MAX_NODES { Ok(()) } else { Err(GraphError::Full { layer, limit: MAX_NODES }) }
 }
 

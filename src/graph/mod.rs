@@ -9,12 +9,16 @@
 
 mod canonical;
 mod edit;
+mod edit_region;
 mod error;
 mod id;
 mod label;
 mod node;
 mod query;
+mod restore;
 mod slots;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeSet;
 
