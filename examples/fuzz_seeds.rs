@@ -1,5 +1,5 @@
 //! Writes the inputs that fuzzing starts from: recordings, payloads, states and texts that are
-//! valid. `cargo run --release --example seeds -- RECORDINGS CORPUS`.
+//! valid. `cargo run --release --example fuzz_seeds -- RECORDINGS CORPUS`.
 
 use std::error::Error;
 use std::fs;
@@ -13,7 +13,7 @@ use scenefold::updater::{Config, Updater};
 use scenefold::wire;
 
 /// Larger seeds slow fuzzing down more than they help.
-const LARGEST: usize = 16 << 10;
+const LARGEST: usize = 48 << 10;
 const PAYLOADS_PER_RECORDING: usize = 60;
 
 const TEXTS: [&str; 16] = [
@@ -45,7 +45,7 @@ const IMPORTS: [(u8, &str); 4] = [
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let (Some(recordings), Some(corpus)) = (arguments.next(), arguments.next()) else {
-        return Err("usage: seeds RECORDINGS CORPUS".into());
+        return Err("usage: fuzz_seeds RECORDINGS CORPUS".into());
     };
     let corpus = Path::new(&corpus);
     for entry in fs::read_dir(recordings)? {
