@@ -248,10 +248,10 @@ fn find_target(
     let named_room = claim.target_room.as_ref().map(|room| find_room(graph, room)).transpose()?;
     let (support, note) = find_support(world, claim, id, named_room)?;
     let supported_in = support.and_then(|on| graph.object(on)).map(|object| object.room);
-    let around = claim.pose.as_ref().and_then(|pose| room_around(graph, pose));
+    let around = || room_around(graph, claim.pose.as_ref()?);
     let room = supported_in
         .or(named_room)
-        .or(around)
+        .or_else(around)
         .ok_or_else(|| Rejection::NoTarget { object: claim.object.clone() })?;
     let (pose, pose_source) = match claim.pose {
         Some(pose) => (pose, PoseSource::Measured),

@@ -2,7 +2,9 @@
 
 use super::{World, WorldError};
 use crate::geometry::{Pose, Size};
-use crate::graph::{GraphError, Layer, Node, NodeId, Object, Placement, PoseSource, Region};
+use crate::graph::{
+    GraphError, Layer, MAX_NODES, Node, NodeId, Object, Placement, PoseSource, Region,
+};
 use crate::time::Stamp;
 
 /// Where a removed object went.
@@ -90,15 +92,29 @@ pub enum Undo {
     /// Nothing was changed.
     Nothing,
     /// An object was put in: take it out (and remember it as departed, if it was).
-    Added(NodeId, Option<Object>),
-    /// An object was taken out or changed: make it this again.
-    Restore(NodeId, Object),
-    /// Objects were changed: make them these again.
-    RestoreAll(Vec<(NodeId, Object)>),
+    Added(NodeId, Option<Box<Object>>),
+    /// An object was moved or taken into the gripper: put it back.
+    Placed(NodeId, Placement),
+    /// An object was replaced: make it this again.
+    Replaced(NodeId, Box<Object>),
+    /// An object left: put it in again, at this place.
+    Departed(NodeId, Placement),
+    /// λ of an object was set.
+    Decay(NodeId, f64),
+    /// Objects were observed: this is what was known of them.
+    Observed(Vec<Known>),
     /// A region was put in.
     RegionAdded(NodeId),
     /// A region was taken out, and the access it gave.
     RegionRemoved(NodeId, Region, Vec<NodeId>),
+}
+
+/// What an observation changes of an object.
+#[derive(Clone, Copy, Debug)]
+pub struct Known {
+    id: NodeId,
+    placement: Placement,
+    size: Size,
 }
 
 impl Primitive {
@@ -143,9 +159,9 @@ impl Primitive {
             Self::Move { id, to } => move_object(world, *id, to),
             Self::Observe { at, seen } => observe(world, *at, seen),
             Self::SetDecay { id, decay_rate, .. } => {
-                let before = object(world, *id)?.clone();
+                let before = object(world, *id)?.decay_rate;
                 world.graph.set_decay_rate(*id, *decay_rate)?;
-                Ok(Undo::Restore(*id, before))
+                Ok(Undo::Decay(*id, before))
             }
         }
     }
@@ -158,13 +174,27 @@ impl Undo {
             Self::Nothing => Ok(()),
             Self::Added(id, departed) => {
                 if let Some(object) = departed {
-                    world.departed.insert(id, object);
+                    world.departed.insert(id, *object);
                 }
                 world.graph.remove_object(id).map(drop)
             }
-            Self::Restore(id, object) => restore(world, id, object),
-            Self::RestoreAll(objects) => {
-                objects.into_iter().rev().try_for_each(|(id, object)| restore(world, id, object))
+            Self::Placed(id, placement) => {
+                world.graph.put_back(id, &placement);
+                Ok(())
+            }
+            Self::Replaced(id, object) => {
+                world.graph.put_back_over(id, *object);
+                Ok(())
+            }
+            Self::Departed(id, placement) => {
+                let object = world.departed.remove(&id).expect("it was just put there");
+                world.graph.put_back_in(id, placement.over(object));
+                Ok(())
+            }
+            Self::Decay(id, decay_rate) => world.graph.set_decay_rate(id, decay_rate),
+            Self::Observed(before) => {
+                before.into_iter().rev().for_each(|known| known.restore(world));
+                Ok(())
             }
             Self::RegionAdded(id) => {
                 let access: Vec<NodeId> = world.graph.access_from(id).collect();
@@ -180,11 +210,16 @@ impl Undo {
     }
 }
 
-fn restore(world: &mut World, id: NodeId, object: Object) -> Result<(), GraphError> {
-    world.departed.remove(&id);
-    match world.graph.object(id) {
-        Some(_) => world.graph.update_object(id, object),
-        None => world.graph.insert_object(id, object),
+impl Known {
+    fn of(id: NodeId, object: &Object) -> Self {
+        Self { id, placement: Placement::of(object), size: object.size }
+    }
+
+    fn restore(self, world: &mut World) {
+        let Self { id, placement, size } = self;
+        let sized = world.graph.observe_object(id, placement.at, None, Some(size));
+        sized.expect("what was just observed is there");
+        world.graph.put_back(id, &placement);
     }
 }
 
@@ -199,17 +234,25 @@ fn add_object(world: &mut World, id: NodeId, object: &Object) -> Result<Undo, Wo
     }
     let undo = match world.graph.object(id) {
         Some(held) if held.is_held() => {
-            let before = held.clone();
-            world.graph.update_object(id, object.clone())?;
-            Undo::Restore(id, before)
+            Undo::Replaced(id, Box::new(world.graph.swap_object(id, object.clone())?))
         }
         _ => {
+            check_known(world, id)?;
             world.graph.insert_object(id, object.clone())?;
-            Undo::Added(id, world.departed.remove(&id))
+            Undo::Added(id, world.departed.remove(&id).map(Box::new))
         }
     };
     use_id(world, id);
     Ok(undo)
+}
+
+/// What left is remembered, so that it counts towards what a graph may hold.
+fn check_known(world: &World, id: NodeId) -> Result<(), GraphError> {
+    let known = world.graph.object_count() + world.departed.len();
+    if known < MAX_NODES || world.departed.contains_key(&id) {
+        return Ok(());
+    }
+    Err(GraphError::Full { layer: Layer::Object, limit: MAX_NODES })
 }
 
 fn add_region(
@@ -242,9 +285,12 @@ fn remove(world: &mut World, id: NodeId, to: Departure, at: Stamp) -> Result<Und
     if id.layer() != Layer::Object {
         return remove_region(world, id);
     }
-    let before = object(world, id)?.clone();
+    let before = Placement::of(object(world, id)?);
     match to {
-        Departure::Held => world.graph.hold_object(id, at)?,
+        Departure::Held => {
+            world.graph.hold_object(id, at)?;
+            Ok(Undo::Placed(id, before))
+        }
         Departure::Gone => {
             let gone = world.graph.remove_object(id)?;
             let source = match gone.pose_source {
@@ -252,9 +298,9 @@ fn remove(world: &mut World, id: NodeId, to: Departure, at: Stamp) -> Result<Und
                 known => known,
             };
             world.departed.insert(id, Object { pose_source: source, last_observed: at, ..gone });
+            Ok(Undo::Departed(id, before))
         }
     }
-    Ok(Undo::Restore(id, before))
 }
 
 /// Takes a region out, with the access it gave; nothing may belong to it.
@@ -274,12 +320,12 @@ fn remove_region(world: &mut World, id: NodeId) -> Result<Undo, WorldError> {
 }
 
 fn move_object(world: &mut World, id: NodeId, to: &Placement) -> Result<Undo, WorldError> {
-    let before = object(world, id)?.clone();
-    if before.is_held() || to.pose_source == PoseSource::Held {
+    let before = Placement::of(object(world, id)?);
+    if before.pose_source == PoseSource::Held || to.pose_source == PoseSource::Held {
         return Err(GraphError::Held { id }.into());
     }
     world.graph.place_object(id, to)?;
-    Ok(Undo::Restore(id, before))
+    Ok(Undo::Placed(id, before))
 }
 
 fn observe(world: &mut World, at: Stamp, seen: &[Sighting]) -> Result<Undo, WorldError> {
@@ -289,10 +335,10 @@ fn observe(world: &mut World, at: Stamp, seen: &[Sighting]) -> Result<Undo, Worl
         if object.is_held() {
             return Err(GraphError::Held { id: sighting.id }.into());
         }
-        before.push((sighting.id, object.clone()));
+        before.push(Known::of(sighting.id, object));
     }
     for sighting in seen {
         world.graph.observe_object(sighting.id, at, sighting.pose, sighting.size)?;
     }
-    Ok(Undo::RestoreAll(before))
+    Ok(Undo::Observed(before))
 }

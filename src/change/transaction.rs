@@ -42,23 +42,49 @@ pub struct TransactionError {
     pub error: WorldError,
 }
 
+/// A step that may change the graph, without its cause: what replay needs of a transaction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edit {
+    /// Which step it is, from 0.
+    pub step: usize,
+    /// What it does.
+    pub primitive: Primitive,
+}
+
 impl Transaction {
     /// Applies all steps, or none.
     pub fn apply(&self, world: &mut World) -> Result<(), TransactionError> {
-        let next = world.next;
-        let mut done: Vec<Undo> = Vec::new();
-        for (n, step) in self.steps.iter().enumerate() {
-            match step.primitive.apply(world) {
-                Ok(Undo::Nothing) => {}
-                Ok(undo) => done.push(undo),
-                Err(error) => {
-                    done.into_iter().rev().for_each(|undo| undo.apply(world));
-                    world.next = next;
-                    let name = step.primitive.name();
-                    return Err(TransactionError { step: n, name, error });
-                }
+        apply(self.steps.iter().map(|step| &step.primitive).enumerate(), world)
+    }
+}
+
+/// Applies all edits of one transaction, or none.
+pub fn apply_edits(edits: &[Edit], world: &mut World) -> Result<(), TransactionError> {
+    apply(edits.iter().map(|edit| (edit.step, &edit.primitive)), world)
+}
+
+fn apply<'p>(
+    steps: impl Iterator<Item = (usize, &'p Primitive)>,
+    world: &mut World,
+) -> Result<(), TransactionError> {
+    let next = world.next;
+    // One edit, the commonest case, needs no list of what to undo.
+    let mut last = Undo::Nothing;
+    let mut done: Vec<Undo> = Vec::new();
+    for (step, primitive) in steps {
+        match primitive.apply(world) {
+            Ok(Undo::Nothing) => {}
+            Ok(undo) => match std::mem::replace(&mut last, undo) {
+                Undo::Nothing => {}
+                earlier => done.push(earlier),
+            },
+            Err(error) => {
+                last.apply(world);
+                done.into_iter().rev().for_each(|undo| undo.apply(world));
+                world.next = next;
+                return Err(TransactionError { step, name: primitive.name(), error });
             }
         }
-        Ok(())
     }
+    Ok(())
 }

@@ -29,6 +29,9 @@ impl ChunkClass {
     }
 }
 
+/// Bytes of a message record before its payload.
+const HEAD: usize = wire::FRAME as usize + wire::MESSAGE_FIXED;
+
 /// Where the first message of the open chunk stands in the log.
 #[derive(Clone, Copy)]
 pub(super) struct Held {
@@ -50,13 +53,17 @@ impl OpenChunk {
     /// Appends a message record; `number` is its place in the order of arrival.
     pub(super) fn push(&mut self, header: MessageHeader, data: &[u8], number: u64) {
         let offset = self.body.len() as u64;
-        self.body.push(op::MESSAGE);
         let length = (wire::MESSAGE_FIXED + data.len()) as u64;
-        self.body.extend_from_slice(&length.to_le_bytes());
-        self.body.extend_from_slice(&header.channel_id.to_le_bytes());
-        self.body.extend_from_slice(&header.sequence.to_le_bytes());
-        self.body.extend_from_slice(&header.log_time.to_le_bytes());
-        self.body.extend_from_slice(&header.publish_time.to_le_bytes());
+        // Put together first: many small appends cost more than the message.
+        let mut head = [0; HEAD];
+        head[0] = op::MESSAGE;
+        head[1..9].copy_from_slice(&length.to_le_bytes());
+        head[9..11].copy_from_slice(&header.channel_id.to_le_bytes());
+        head[11..15].copy_from_slice(&header.sequence.to_le_bytes());
+        head[15..23].copy_from_slice(&header.log_time.to_le_bytes());
+        head[23..].copy_from_slice(&header.publish_time.to_le_bytes());
+        self.body.reserve(HEAD + data.len());
+        self.body.extend_from_slice(&head);
         self.body.extend_from_slice(data);
         self.index(header.channel_id, header.log_time, offset);
         let held = self.held.get_or_insert(Held {
@@ -73,8 +80,10 @@ impl OpenChunk {
             self.indexes.resize_with(slot + 1, Vec::new);
         }
         let entries = &mut self.indexes[slot];
-        entries.extend_from_slice(&log_time.to_le_bytes());
-        entries.extend_from_slice(&offset.to_le_bytes());
+        let mut entry = [0; 16];
+        entry[..8].copy_from_slice(&log_time.to_le_bytes());
+        entry[8..].copy_from_slice(&offset.to_le_bytes());
+        entries.extend_from_slice(&entry);
     }
 
     /// Channels with messages in the chunk and their encoded index entries, by channel id.

@@ -57,6 +57,8 @@ pub struct LogWriter<W: Write> {
     next_channel_id: u16,
     chunks: [OpenChunk; 4],
     chunks_closed: [u64; 4],
+    /// Bytes of the closed chunks of each class in the file, message indexes included.
+    stored: [u64; 4],
     schemas_defined: [Vec<bool>; 4],
     /// `follows[a][b]`: open chunk `a` must come after open chunk `b`.
     follows: [[bool; 4]; 4],
@@ -84,6 +86,7 @@ impl<W: Write> LogWriter<W> {
             next_channel_id: 1,
             chunks: Default::default(),
             chunks_closed: [0; 4],
+            stored: [0; 4],
             schemas_defined: Default::default(),
             follows: Default::default(),
             last_time: 0,
@@ -202,6 +205,11 @@ impl<W: Write> LogWriter<W> {
     /// Returns the number of bytes handed to the inner writer.
     pub fn position(&self) -> u64 {
         self.position
+    }
+
+    /// Returns the bytes that closed chunks of `class` take in the file.
+    pub fn stored(&self, class: ChunkClass) -> u64 {
+        self.stored[class as usize]
     }
 
     /// Returns the inner writer, for example to sync a file.
@@ -343,6 +351,7 @@ impl<W: Write> LogWriter<W> {
         self.summary.add_chunk(index);
         self.chunks[class as usize].clear();
         self.chunks_closed[class as usize] += 1;
+        self.stored[class as usize] += self.out.len() as u64;
         if self.chunks_closed[class as usize].is_multiple_of(DEFINITIONS_EVERY) {
             self.repeat_definitions(class);
         }

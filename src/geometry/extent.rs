@@ -1,6 +1,6 @@
 //! The size of a box: [`Size`].
 
-use super::grid::{GeometryError, Micrometres, metres, micrometres};
+use super::grid::{GeometryError, Micrometres, metres, micrometres, on_grid};
 
 /// Full extents (w, h, d) of a bounding box in metres, each positive; the paper's `b ∈ R³₊`.
 ///
@@ -24,8 +24,12 @@ impl Size {
 
     /// A box from whole micrometres.
     pub fn from_micrometres(sides: [Micrometres; 3]) -> Result<Self, GeometryError> {
-        let [w, h, d] = sides.map(metres);
-        Self::new(w, h, d)
+        for (what, side) in ["width", "height", "depth"].into_iter().zip(sides) {
+            if on_grid(what, side)? <= 0 {
+                return Err(GeometryError::NotPositive { what, value: metres(side) });
+            }
+        }
+        Ok(Self(sides))
     }
 
     /// (w, h, d) in metres.

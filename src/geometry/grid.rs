@@ -50,6 +50,19 @@ pub(super) fn micrometres(what: &'static str, metres: f64) -> Result<Micrometres
     }
 }
 
+/// Checks a length that is on the grid already.
+pub(super) fn on_grid(
+    what: &'static str,
+    micrometres: Micrometres,
+) -> Result<Micrometres, GeometryError> {
+    const LIMIT_UM: u64 = LIMIT_M as u64 * 1_000_000;
+    if micrometres.unsigned_abs() <= LIMIT_UM {
+        Ok(micrometres)
+    } else {
+        Err(GeometryError::OutOfRange { what, value: metres(micrometres) })
+    }
+}
+
 /// Metres from micrometres: the float nearest to the decimal, so it prints with six digits.
 pub(super) fn metres(micrometres: Micrometres) -> f64 {
     micrometres as f64 / 1.0e6

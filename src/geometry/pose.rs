@@ -2,10 +2,12 @@
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
-use super::grid::{GeometryError, Micrometres, metres, micrometres};
+use super::grid::{GeometryError, Micrometres, metres, micrometres, on_grid};
 
 /// Steps of the orientation grid in one unit of a quaternion component.
 const QUATERNION_STEPS: f64 = 1.0e7;
+/// The square of the length of a unit quaternion, in steps.
+const UNIT_SQUARE: u64 = 100_000_000_000_000;
 
 /// The pose `world_from_node` of a node: an element of SE(3).
 ///
@@ -41,14 +43,17 @@ impl Pose {
         position_um: [Micrometres; 3],
         orientation_e7: [i32; 4],
     ) -> Result<Self, GeometryError> {
-        let [w, x, y, z] = orientation_e7.map(|step| f64::from(step) / QUATERNION_STEPS);
-        let norm = w * w + x * x + y * y + z * z;
+        // In whole steps: replay makes a pose for each edit, and rounding takes ten times as long.
+        let squares = orientation_e7.map(|step| u64::from(step.unsigned_abs()).pow(2));
+        let square = squares.into_iter().fold(0_u64, u64::saturating_add);
         let positive = orientation_e7.iter().find(|step| **step != 0).is_some_and(|step| *step > 0);
-        if !positive || (norm - 1.0).abs() > 1.0e-6 {
+        if !positive || square.abs_diff(UNIT_SQUARE) > UNIT_SQUARE / 1_000_000 {
+            let [w, x, y, z] = orientation_e7.map(|step| f64::from(step) / QUATERNION_STEPS);
             return Err(GeometryError::Orientation { w, x, y, z });
         }
-        Self::new(position_um.map(metres), [1.0, 0.0, 0.0, 0.0])
-            .map(|pose| Self { orientation_e7, ..pose })
+        let [x, y, z] = position_um;
+        let position_um = [on_grid("x", x)?, on_grid("y", y)?, on_grid("z", z)?];
+        Ok(Self { position_um, orientation_e7 })
     }
 
     /// A pose from an isometry, rounded to the grid.
@@ -119,7 +124,7 @@ fn quantised(wxyz: [f64; 4]) -> Result<[i32; 4], GeometryError> {
     let scaled = wxyz.map(|c| c / largest);
     let norm = libm::sqrt(scaled.iter().map(|c| c * c).sum());
     // What already lies on the grid stays: reading one's own output must change nothing.
-    let unit = if (norm * largest - 1.0).abs() < 1.0e-6 && on_grid(wxyz) {
+    let unit = if (norm * largest - 1.0).abs() < 1.0e-6 && is_on_grid(wxyz) {
         wxyz
     } else {
         scaled.map(|c| c / norm)
@@ -129,7 +134,7 @@ fn quantised(wxyz: [f64; 4]) -> Result<[i32; 4], GeometryError> {
     Ok(if negative { steps.map(|step| -step) } else { steps })
 }
 
-fn on_grid(wxyz: [f64; 4]) -> bool {
+fn is_on_grid(wxyz: [f64; 4]) -> bool {
     wxyz.iter().all(|c| {
         let steps = libm::round(c * QUATERNION_STEPS);
         // The grid value itself, as division gives it, bit for bit.

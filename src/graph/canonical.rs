@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::{
-    GraphError, Label, LabelError, Layer, NodeId, Object, Placement, PoseSource, Region, SceneGraph,
+    GraphError, Label, LabelError, Layer, NodeId, Object, PoseSource, Region, SceneGraph,
 };
 use crate::bytes::{Reader, Writer};
 use crate::geometry::{GeometryError, Pose, Size};
@@ -262,15 +262,10 @@ fn read_objects(
     for n in 0..count {
         let id = read_index(input, Layer::Object, &mut last, n == 0)?;
         let object = read_object(input, labels)?;
-        if object.support.is_some() {
-            resting.push((id, Placement::of(&object)));
-        }
+        resting.extend(object.support.map(|support| (id, support)));
         graph.insert_object(id, Object { support: None, ..object })?;
     }
-    for (id, placement) in resting {
-        graph.place_object(id, &placement)?;
-    }
-    Ok(())
+    Ok(graph.set_supports(&resting)?)
 }
 
 fn read_object(input: &mut Reader<'_>, labels: &[Label]) -> Result<Object, CanonicalError> {

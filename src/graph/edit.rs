@@ -1,8 +1,8 @@
-//! The edits of a graph. Each succeeds whole or is refused and changes nothing.
+//! The edits of objects. Each succeeds whole or is refused and changes nothing.
 
 use super::{
-    GraphError, Layer, NodeId, Object, PoseSource, Region, SceneGraph,
-    slots::{ObjectSlot, RegionSlot, Slots},
+    GraphError, Layer, NodeId, Object, PoseSource, SceneGraph,
+    slots::ObjectSlot,
 };
 use crate::geometry::{Pose, Size};
 use crate::time::Stamp;
@@ -33,6 +33,45 @@ impl Placement {
             at: object.last_observed,
         }
     }
+
+    /// `object`, but here.
+    pub fn over(&self, object: Object) -> Object {
+        Object {
+            room: self.room,
+            support: self.support,
+            pose: self.pose,
+            pose_source: self.pose_source,
+            last_observed: self.at,
+            ..object
+        }
+    }
+}
+
+/// Most nodes in one layer; far more than any building holds, few enough to bound what a hostile
+/// log can claim.
+pub const MAX_NODES: usize = 1 << 20;
+/// Most objects below one that is put on something.
+pub const MAX_PILE: usize = 100;
+
+/// At what an object is counted.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Hold {
+    room: NodeId,
+    support: Option<NodeId>,
+    held: bool,
+}
+
+impl Hold {
+    fn of(object: &Object) -> Self {
+        Self { room: object.room, support: object.support, held: object.is_held() }
+    }
+}
+
+impl ObjectSlot {
+    /// The count of what rests on it, held or not.
+    pub(super) fn count(&mut self, held: bool) -> &mut u32 {
+        if held { &mut self.resting_held } else { &mut self.resting }
+    }
 }
 
 impl SceneGraph {
@@ -44,16 +83,14 @@ impl SceneGraph {
     /// Adds an object under a new id.
     pub fn insert_object(&mut self, id: NodeId, object: Object) -> Result<(), GraphError> {
         expect_layer(id, Layer::Object)?;
-        if self.object(id).is_some() {
+        if self.objects.get(id.index()).is_some() {
             return Err(GraphError::DuplicateNode { id });
         }
+        check_room_for(Layer::Object, self.objects.len())?;
         check_decay_rate(id, object.decay_rate)?;
         self.check_room(object.room)?;
-        self.check_support(id, object.support, object.is_held())?;
-        self.count_on(&object, 1);
-        let object = Object { decay_rate: object.decay_rate + 0.0, ..object };
-        let slot = ObjectSlot { object, resting: 0, resting_held: 0 };
-        self.objects.insert(id.index(), slot).expect("the slot was seen to be free");
+        self.check_support(id, None, object.support, object.is_held())?;
+        self.put_in(id, Object { decay_rate: object.decay_rate + 0.0, ..object });
         Ok(())
     }
 
@@ -65,7 +102,7 @@ impl SceneGraph {
             return Err(GraphError::StillSupports { id, count });
         }
         let slot = self.objects.remove(id.index()).expect("the slot was seen to be full");
-        self.count_on(&slot.object, -1);
+        self.count_on(Hold::of(&slot.object), -1);
         Ok(slot.object)
     }
 
@@ -75,44 +112,33 @@ impl SceneGraph {
         if slot.object.is_held() {
             return Err(GraphError::Held { id });
         }
-        if slot.resting > 0 {
-            return Err(GraphError::StillSupports { id, count: slot.resting });
-        }
-        let before = slot.object.clone();
-        let held = Object { pose_source: PoseSource::Held, last_observed: at, ..before.clone() };
-        self.replace_object(id, &before, held);
-        Ok(())
+        let held = PoseSource::Held;
+        let to = Placement { pose_source: held, at, ..Placement::of(&slot.object) };
+        self.place_object(id, &to)
     }
 
     /// Puts an object elsewhere; also one that is held, which it then no longer is.
     pub fn place_object(&mut self, id: NodeId, placement: &Placement) -> Result<(), GraphError> {
-        let before = self.object_slot(id)?.object.clone();
-        self.check_room(placement.room)?;
-        let held = placement.pose_source == PoseSource::Held;
-        self.check_support(id, placement.support, held)?;
-        let after = Object {
-            room: placement.room,
-            support: placement.support,
-            pose: placement.pose,
-            pose_source: placement.pose_source,
-            last_observed: placement.at,
-            ..before.clone()
-        };
-        if held && !before.is_held() && self.object_slot(id)?.resting > 0 {
-            let count = self.object_slot(id)?.resting;
-            return Err(GraphError::StillSupports { id, count });
-        }
-        self.replace_object(id, &before, after);
+        self.check_placement(id, placement)?;
+        self.put_at(id, placement);
         Ok(())
     }
 
     /// Replaces all that is known of an object.
     pub fn update_object(&mut self, id: NodeId, object: Object) -> Result<(), GraphError> {
+        self.swap_object(id, object).map(drop)
+    }
+
+    /// As [`Self::update_object`]; returns what it was.
+    pub(crate) fn swap_object(
+        &mut self,
+        id: NodeId,
+        object: Object,
+    ) -> Result<Object, GraphError> {
         check_decay_rate(id, object.decay_rate)?;
-        self.place_object(id, &Placement::of(&object))?;
-        let slot = self.objects.get_mut(id.index()).expect("it was just placed");
-        slot.object = Object { decay_rate: object.decay_rate + 0.0, ..object };
-        Ok(())
+        self.check_placement(id, &Placement::of(&object))?;
+        let object = Object { decay_rate: object.decay_rate + 0.0, ..object };
+        Ok(self.put_over(id, object))
     }
 
     /// Notes that an object was seen at `at`, with better geometry where given.
@@ -144,103 +170,103 @@ impl SceneGraph {
         Ok(())
     }
 
-    /// Adds a room, floor or building under a new id.
-    pub fn insert_region(&mut self, id: NodeId, region: Region) -> Result<(), GraphError> {
-        if id.layer() == Layer::Object {
-            return Err(GraphError::WrongLayer { id, found: Layer::Object, expected: Layer::Room });
-        }
-        if self.region(id).is_some() {
-            return Err(GraphError::DuplicateNode { id });
-        }
-        if let Some(parent) = region.parent {
-            if parent.layer() <= id.layer() {
-                return Err(GraphError::LayerOrder { parent, child: id });
-            }
-            self.region_slot(parent)?.children += 1;
-        }
-        let slot = RegionSlot { region, children: 0 };
-        self.regions_mut(id.layer()).insert(id.index(), slot).expect("seen to be free");
-        Ok(())
+    pub(super) fn put_in(&mut self, id: NodeId, object: Object) {
+        self.count_on(Hold::of(&object), 1);
+        let slot = ObjectSlot { object, resting: 0, resting_held: 0 };
+        self.objects.insert(id.index(), slot).expect("the slot was seen to be free");
     }
 
-    /// Takes a region out; nothing may belong to it and it may give access to nothing.
-    pub fn remove_region(&mut self, id: NodeId) -> Result<Region, GraphError> {
-        if self.region(id).is_none() {
-            return Err(GraphError::UnknownNode { id });
+    pub(super) fn put_at(&mut self, id: NodeId, to: &Placement) {
+        let slot = self.objects.get_mut(id.index()).expect("it was seen to be there");
+        let object = &mut slot.object;
+        let before = Hold::of(object);
+        object.room = to.room;
+        object.support = to.support;
+        object.pose = to.pose;
+        object.pose_source = to.pose_source;
+        object.last_observed = to.at;
+        let after = Hold::of(object);
+        if before != after {
+            self.count_on(before, -1);
+            self.count_on(after, 1);
         }
-        let count = self.region_slot(id)?.children as usize + self.access_from(id).count();
-        if count > 0 {
-            return Err(GraphError::StillContains { id, count });
-        }
-        let removed = self.regions_mut(id.layer()).remove(id.index()).expect("seen to be full");
-        if let Some(parent) = removed.region.parent {
-            self.region_slot(parent).expect("a parent outlives its children").children -= 1;
-        }
-        Ok(removed.region)
     }
 
-    /// Connects two rooms by access, in both directions; connecting twice is connecting once.
-    pub fn connect(&mut self, a: NodeId, b: NodeId) -> Result<(), GraphError> {
-        if a == b {
-            return Err(GraphError::SelfAccess { id: a });
-        }
-        self.check_room(a)?;
-        self.check_room(b)?;
-        self.access.insert((a.min(b), a.max(b)));
-        Ok(())
+    pub(super) fn put_over(&mut self, id: NodeId, object: Object) -> Object {
+        let slot = self.objects.get_mut(id.index()).expect("it was seen to be there");
+        let after = Hold::of(&object);
+        let before = std::mem::replace(&mut slot.object, object);
+        self.count_on(Hold::of(&before), -1);
+        self.count_on(after, 1);
+        before
     }
 
-    /// Takes the access between two rooms away, if there is any.
-    pub fn disconnect(&mut self, a: NodeId, b: NodeId) {
-        self.access.remove(&(a.min(b), a.max(b)));
-    }
-
-    fn replace_object(&mut self, id: NodeId, before: &Object, after: Object) {
-        self.count_on(before, -1);
-        self.count_on(&after, 1);
-        self.objects.get_mut(id.index()).expect("the caller has just read it").object = after;
-    }
-
-    /// Counts `object` in (+1) or out (−1) at its room and support.
-    fn count_on(&mut self, object: &Object, by: i32) {
+    /// Counts an object in (+1) or out (−1) at its room and support.
+    fn count_on(&mut self, at: Hold, by: i32) {
         let step = |count: &mut u32| *count = count.wrapping_add_signed(by);
-        if let Some(room) = self.rooms.get_mut(object.room.index()) {
+        if let Some(room) = self.rooms.get_mut(at.room.index()) {
             step(&mut room.children);
         }
-        if let Some(support) = object.support.and_then(|id| self.objects.get_mut(id.index())) {
-            step(if object.is_held() { &mut support.resting_held } else { &mut support.resting });
+        if let Some(support) = at.support.and_then(|id| self.objects.get_mut(id.index())) {
+            step(support.count(at.held));
         }
     }
 
-    fn check_room(&self, room: NodeId) -> Result<(), GraphError> {
-        expect_layer(room, Layer::Room)?;
-        self.region(room).map(drop).ok_or(GraphError::UnknownNode { id: room })
+    fn check_placement(&self, id: NodeId, to: &Placement) -> Result<(), GraphError> {
+        let slot = self.object_slot(id)?;
+        let held = to.pose_source == PoseSource::Held;
+        self.check_room(to.room)?;
+        self.check_support(id, slot.object.support, to.support, held)?;
+        if held && !slot.object.is_held() && slot.resting > 0 {
+            return Err(GraphError::StillSupports { id, count: slot.resting });
+        }
+        Ok(())
     }
 
-    /// `id` may rest on `support`: it exists, is held only if `id` is, and rests not on `id`.
+    pub(super) fn check_room(&self, room: NodeId) -> Result<(), GraphError> {
+        expect_layer(room, Layer::Room)?;
+        let known = self.rooms.get(room.index()).is_some();
+        if known { Ok(()) } else { Err(GraphError::UnknownNode { id: room }) }
+    }
+
+    /// `id`, which rests on `before`, may rest on `support`: it can hold it, and rests not on
+    /// `id`. Few things stand on each other in a house, so a high pile is refused rather than
+    /// walked down at every edit.
     fn check_support(
         &self,
         id: NodeId,
+        before: Option<NodeId>,
         support: Option<NodeId>,
         held: bool,
     ) -> Result<(), GraphError> {
         let Some(support) = support else { return Ok(()) };
-        expect_layer(support, Layer::Object)?;
+        self.check_holds(support, held)?;
+        if before == Some(support) {
+            return Ok(());
+        }
         let mut below = Some(support);
-        while let Some(next) = below {
+        for _ in 0..MAX_PILE {
+            let Some(next) = below else { return Ok(()) };
             if next == id {
                 return Err(GraphError::SupportCycle { id, support });
             }
-            let object = self.object(next).ok_or(GraphError::UnknownNode { id: next })?;
-            if next == support && object.is_held() && !held {
-                return Err(GraphError::Held { id: support });
-            }
-            below = object.support;
+            below = self.object_slot(next)?.object.support;
+        }
+        match below {
+            None => Ok(()),
+            Some(_) => Err(GraphError::PileTooHigh { id, support, limit: MAX_PILE }),
+        }
+    }
+
+    /// `support` is an object, and held only if what rests on it is.
+    pub(super) fn check_holds(&self, support: NodeId, held: bool) -> Result<(), GraphError> {
+        if self.object_slot(support)?.object.is_held() && !held {
+            return Err(GraphError::Held { id: support });
         }
         Ok(())
     }
 
-    fn object_slot(&self, id: NodeId) -> Result<&ObjectSlot, GraphError> {
+    pub(super) fn object_slot(&self, id: NodeId) -> Result<&ObjectSlot, GraphError> {
         expect_layer(id, Layer::Object)?;
         self.objects.get(id.index()).ok_or(GraphError::UnknownNode { id })
     }
@@ -251,28 +277,16 @@ impl SceneGraph {
         }
         Ok(&mut self.objects.get_mut(id.index()).expect("just read").object)
     }
-
-    fn region_slot(&mut self, id: NodeId) -> Result<&mut RegionSlot, GraphError> {
-        let unknown = GraphError::UnknownNode { id };
-        if id.layer() == Layer::Object {
-            return Err(unknown);
-        }
-        self.regions_mut(id.layer()).get_mut(id.index()).ok_or(unknown)
-    }
-
-    fn regions_mut(&mut self, layer: Layer) -> &mut Slots<RegionSlot> {
-        match layer {
-            Layer::Object => unreachable!("callers have refused objects"),
-            Layer::Room => &mut self.rooms,
-            Layer::Floor => &mut self.floors,
-            Layer::Building => &mut self.buildings,
-        }
-    }
 }
 
 fn expect_layer(id: NodeId, expected: Layer) -> Result<(), GraphError> {
     let found = id.layer();
     if found == expected { Ok(()) } else { Err(GraphError::WrongLayer { id, found, expected }) }
+}
+
+/// Whether a layer that holds `count` nodes takes another.
+pub(super) fn check_room_for(layer: Layer, count: usize) -> Result<(), GraphError> {
+    if count < MAX_NODES { Ok(()) } else { Err(GraphError::Full { layer, limit: MAX_NODES }) }
 }
 
 fn check_decay_rate(id: NodeId, value: f64) -> Result<(), GraphError> {

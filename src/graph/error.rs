@@ -65,6 +65,24 @@ pub enum GraphError {
         /// The would-be support.
         support: NodeId,
     },
+    /// Too many objects stand on each other.
+    #[error("{id} cannot be put on {support}: at most {limit} objects stand on each other")]
+    PileTooHigh {
+        /// The object.
+        id: NodeId,
+        /// The would-be support.
+        support: NodeId,
+        /// Most objects below one.
+        limit: usize,
+    },
+    /// Too many nodes.
+    #[error("a graph holds at most {limit} nodes of one layer, and that many {layer}s are known")]
+    Full {
+        /// The layer.
+        layer: Layer,
+        /// Most nodes in it.
+        limit: usize,
+    },
     /// λ must be a number ≥ 0.
     #[error("decay rate {value} of {id} is not a number ≥ 0")]
     DecayRate {

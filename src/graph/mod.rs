@@ -9,18 +9,22 @@
 
 mod canonical;
 mod edit;
+mod edit_region;
 mod error;
 mod id;
 mod label;
 mod node;
 mod query;
+mod restore;
 mod slots;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeSet;
 
 pub use canonical::{CANONICAL_VERSION, CanonicalError, StateHash};
 pub(crate) use canonical::{read_object_bytes, write_object_bytes};
-pub use edit::Placement;
+pub use edit::{MAX_NODES, MAX_PILE, Placement};
 pub use error::GraphError;
 pub use id::{Layer, NodeId, NodeIdError};
 pub use label::{Label, LabelError};
@@ -37,6 +41,6 @@ pub struct SceneGraph {
     rooms: Slots<RegionSlot>,
     floors: Slots<RegionSlot>,
     buildings: Slots<RegionSlot>,
-    /// Undirected, each pair once, the smaller id first.
+    /// Undirected: each pair both ways, so that the rooms next to one are found at once.
     access: BTreeSet<(NodeId, NodeId)>,
 }

@@ -61,22 +61,13 @@ impl SceneGraph {
 
     /// Pairs of rooms with access to each other, each once, in order.
     pub fn access(&self) -> impl Iterator<Item = (NodeId, NodeId)> {
-        self.access.iter().copied()
+        self.access.iter().copied().filter(|(a, b)| a < b)
     }
 
     /// Rooms that `room` gives access to, in order of id.
     pub fn access_from(&self, room: NodeId) -> impl Iterator<Item = NodeId> {
-        let mut others: Vec<NodeId> = self
-            .access
-            .iter()
-            .filter_map(|(a, b)| match room {
-                _ if *a == room => Some(*b),
-                _ if *b == room => Some(*a),
-                _ => None,
-            })
-            .collect();
-        others.sort_unstable();
-        others.into_iter()
+        let first = NodeId::new(room.layer(), 0).expect("every layer has an index 0");
+        self.access.range((room, first)..).take_while(move |(a, _)| *a == room).map(|(_, b)| *b)
     }
 
     /// What rests on or lies in `id`, directly or on something that does; lower things first.

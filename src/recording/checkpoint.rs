@@ -6,7 +6,8 @@ use crate::graph::StateHash;
 use crate::time::Stamp;
 use crate::updater::{Config, RestoreError, Updater};
 use crate::wire::{
-    CheckpointHead, CheckpointMessage, WireError, decode_checkpoint, encode_checkpoint,
+    CheckpointHead, CheckpointMessage, WireError, decode_checkpoint, encode_packed_checkpoint,
+    pack_state,
 };
 
 /// Version of the message; one of another version is ignored.
@@ -66,7 +67,13 @@ impl Checkpoint {
         }
     }
 
-    pub(super) fn encode(&self) -> Vec<u8> {
+    /// The state as it is stored.
+    pub(super) fn packed(&self) -> Vec<u8> {
+        pack_state(&self.state)
+    }
+
+    /// The payload; `packed` is what [`Self::packed`] gave.
+    pub(super) fn encode(&self, packed: Vec<u8>) -> Vec<u8> {
         let head = CheckpointHead {
             version: VERSION,
             order: self.order,
@@ -77,7 +84,7 @@ impl Checkpoint {
             memory_hash: self.memory_hash.0,
             state_size: self.state.len() as u64,
         };
-        encode_checkpoint(&head, &self.state)
+        encode_packed_checkpoint(&head, packed)
     }
 
     /// Reads a payload and verifies that the state is the one that was written.

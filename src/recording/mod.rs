@@ -15,6 +15,7 @@
 //! Invariant: what was acknowledged is read back after `kill -9`.
 //! Invariant: a checkpoint is a cache; leaving all of them out changes no state.
 
+mod batch;
 mod chain;
 mod checkpoint;
 mod events;

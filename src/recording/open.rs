@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
+use super::batch::Kind;
 use super::chain::{GENESIS, Link};
 use super::meta::{Meta, MetaError, Seal};
 use super::segment::segment_files;
@@ -21,6 +22,7 @@ pub struct Recording {
     pub(super) path: PathBuf,
     pub(super) segments: Vec<Segment>,
     trouble: Mutex<BTreeSet<String>>,
+    span: OnceLock<Option<(Stamp, Stamp)>>,
 }
 
 /// One file of a recording.
@@ -35,6 +37,10 @@ pub(super) struct Segment {
     /// Channels of sensor data.
     pub sensors: BTreeSet<u16>,
     pub checkpoints: OnceLock<Vec<super::state::CheckpointRef>>,
+    /// What the fold makes of each channel, by its number.
+    kinds: Vec<Kind>,
+    /// Places of the chunks that may hold events, in the order of the log.
+    event_chunks: OnceLock<Vec<u32>>,
 }
 
 /// Why a recording cannot be opened.
@@ -123,7 +129,7 @@ impl Recording {
     }
 
     fn over(path: PathBuf, segments: Vec<Segment>) -> Self {
-        let recording = Self { path, segments, trouble: Mutex::default() };
+        let recording = Self { path, segments, trouble: Mutex::default(), span: OnceLock::new() };
         for segment in &recording.segments {
             for damage in segment.log.damage().items() {
                 recording.report(segment, damage);
@@ -166,12 +172,12 @@ impl Recording {
 
     /// Log time of the first event; `None` if there is none.
     pub fn start(&self) -> Option<Stamp> {
-        self.event_chunks().map(|entry| entry.start_time).min().map(Stamp::from_nanos)
+        self.span().map(|(start, _)| start)
     }
 
     /// Log time of the last event; `None` if there is none.
     pub fn end(&self) -> Option<Stamp> {
-        self.event_chunks().map(|entry| entry.end_time).max().map(Stamp::from_nanos)
+        self.span().map(|(_, end)| end)
     }
 
     /// Whether the files number their events themselves, as ours do; in others an event's
@@ -197,11 +203,12 @@ impl Recording {
         self.trouble.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 
-    fn event_chunks(&self) -> impl Iterator<Item = &ChunkEntry> {
-        self.segments.iter().flat_map(|segment| {
-            segment.log.chunks().iter().filter(|entry| {
-                segment.events.iter().chain(&segment.sensors).any(|id| entry.may_hold(*id))
-            })
+    fn span(&self) -> Option<(Stamp, Stamp)> {
+        let chunks = || self.segments.iter().flat_map(Segment::chunks_with_messages);
+        *self.span.get_or_init(|| {
+            let start = chunks().map(|entry| entry.start_time).min()?;
+            let end = chunks().map(|entry| entry.end_time).max()?;
+            Some((Stamp::from_nanos(start), Stamp::from_nanos(end)))
         })
     }
 }
@@ -224,6 +231,8 @@ impl Segment {
             events: BTreeSet::new(),
             sensors: BTreeSet::new(),
             checkpoints: OnceLock::new(),
+            kinds: Vec::new(),
+            event_chunks: OnceLock::new(),
         };
         segment.sort_channels();
         Ok(segment)
@@ -255,10 +264,39 @@ impl Segment {
                 }
                 _ => {
                     self.events.insert(*id);
+                    let place = usize::from(*id);
+                    self.kinds.resize(self.kinds.len().max(place + 1), Kind::Ignored);
+                    self.kinds[place] = Kind::of(&topic);
                 }
             }
             self.topics.insert(*id, topic);
         }
+    }
+
+    /// The chunks that may hold events or sensor data.
+    fn chunks_with_messages(&self) -> impl Iterator<Item = &ChunkEntry> {
+        self.log
+            .chunks()
+            .iter()
+            .filter(|entry| self.events.iter().chain(&self.sensors).any(|id| entry.may_hold(*id)))
+    }
+
+    /// What the fold makes of a message on `channel`.
+    pub fn kind(&self, channel: u16) -> Kind {
+        self.kinds.get(usize::from(channel)).copied().unwrap_or_default()
+    }
+
+    /// The chunks that may hold events, in the order of the log.
+    pub fn event_chunks(&self) -> impl Iterator<Item = &ChunkEntry> {
+        let chunks = self.log.chunks();
+        let places = self.event_chunks.get_or_init(|| {
+            let holds = |entry: &ChunkEntry| self.events.iter().any(|id| entry.may_hold(*id));
+            let mut places: Vec<u32> =
+                (0..).zip(chunks).filter(|(_, e)| holds(e)).map(|(n, _)| n).collect();
+            places.sort_by_key(|n| (chunks[*n as usize].start_time, *n));
+            places
+        });
+        places.iter().map(|n| &chunks[*n as usize])
     }
 
     /// The channels of a topic; files of other programs may have several.

@@ -1,72 +1,22 @@
 //! Chunks decoded on several threads, handed on in order.
+//!
+//! Whoever is free takes the next chunk, also the thread that folds: it decodes while it waits.
 
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
-use std::sync::mpsc::{Receiver, sync_channel};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
+use super::batch::{Batch, Decoder};
 use super::open::Segment;
-use crate::change::{Transaction, World};
-use crate::container::{ChunkBuffer, ChunkEntry, Damage};
-use crate::event::{Event, Topic};
-use crate::graph::SceneGraph;
-use crate::time::Stamp;
-use crate::wire;
+use crate::container::{ChunkEntry, Damage};
 
-/// What an event is to the fold.
-#[derive(Debug)]
-pub(super) enum Content {
-    /// The graph at the start.
-    Initial(Box<SceneGraph>),
-    /// An update.
-    Transaction(Transaction),
-    /// Nothing.
-    Other,
-}
-
-/// An event on its way to the fold.
-#[derive(Debug)]
-pub(super) struct Item {
-    pub order: u64,
-    pub at: Stamp,
-    /// What it is, or why that cannot be told.
-    pub content: Result<Content, String>,
-}
-
-impl Content {
-    pub fn apply(self, world: &mut World) -> Result<(), String> {
-        match self {
-            Self::Initial(graph) => *world = World::from_graph(*graph),
-            Self::Transaction(transaction) => {
-                transaction.apply(world).map_err(|error| error.to_string())?;
-            }
-            Self::Other => {}
-        }
-        Ok(())
-    }
-}
-
-impl Item {
-    pub fn of(order: u64, log_time: u64, topic: &Topic, data: &[u8]) -> Self {
-        let at = Stamp::from_nanos(log_time);
-        let content = match topic {
-            Topic::Primitive => wire::decode_transaction(at, data)
-                .map(Content::Transaction)
-                .map_err(|error| error.to_string()),
-            Topic::InitialGraph => match wire::decode(topic, at, data) {
-                Ok(Event::InitialGraph(graph)) => Ok(Content::Initial(Box::new(graph))),
-                Ok(_) => Ok(Content::Other),
-                Err(error) => Err(error.to_string()),
-            },
-            _ => Ok(Content::Other),
-        };
-        Self { order, at, content }
-    }
-}
-
-type Decoded = Result<Vec<Item>, Damage>;
-type Visitor<'v, 'e> = dyn FnMut(&'e ChunkEntry, Decoded) -> ControlFlow<()> + 'v;
+type Visitor<'v, 'e> =
+    dyn FnMut(&'e ChunkEntry, Result<&mut Batch, Damage>) -> ControlFlow<()> + 'v;
 
 /// Few chunks are not worth a thread.
 const WORTH_A_THREAD: usize = 4;
+/// Chunks ahead of the fold, for each thread: enough to keep all of them busy.
+const AHEAD: usize = 3;
 
 /// Decodes the events of each chunk, on `threads` threads, and hands them to `visit` in the
 /// order of `entries`, until it breaks. At most a few chunks are held at once.
@@ -77,51 +27,150 @@ pub(super) fn for_each_chunk<'e>(
     visit: &mut Visitor<'_, 'e>,
 ) {
     if threads < 2 || entries.len() < WORTH_A_THREAD {
-        let mut buffer = ChunkBuffer::new();
+        let (mut decoder, mut batch) = (Decoder::default(), Batch::default());
         for entry in entries {
-            if visit(entry, decode_chunk(segment, entry, &mut buffer)).is_break() {
+            let decoded = decoder.decode(segment, entry, &mut batch);
+            if visit(entry, decoded.map(|()| &mut batch)).is_break() {
                 return;
             }
         }
         return;
     }
+    let board = Board::new(entries.len(), threads * AHEAD);
     std::thread::scope(|scope| {
-        let receivers: Vec<Receiver<Decoded>> = (0..threads)
-            .map(|worker| {
-                // Two chunks ahead for each worker keep all of them busy.
-                let (sender, receiver) = sync_channel(2);
-                scope.spawn(move || {
-                    let mut buffer = ChunkBuffer::new();
-                    for entry in entries.iter().skip(worker).step_by(threads) {
-                        // The other side hangs up when it has what it wants.
-                        if sender.send(decode_chunk(segment, entry, &mut buffer)).is_err() {
-                            return;
-                        }
-                    }
-                });
-                receiver
-            })
-            .collect();
+        for _ in 1..threads {
+            scope.spawn(|| board.work(segment, entries));
+        }
+        let _over = Over(&board);
+        let mut decoder = Decoder::default();
         for (n, entry) in entries.iter().enumerate() {
-            let Ok(decoded) = receivers[n % threads].recv() else { return };
-            if visit(entry, decoded).is_break() {
+            let Some((mut batch, decoded)) = board.take(n, segment, entries, &mut decoder) else {
+                return;
+            };
+            if visit(entry, decoded.map(|()| &mut batch)).is_break() {
                 return;
             }
+            board.lock().spare.push(batch);
         }
     });
 }
 
-/// The events of a chunk that matter to the fold, and the last one in any case.
-fn decode_chunk(segment: &Segment, entry: &ChunkEntry, buffer: &mut ChunkBuffer) -> Decoded {
-    segment.log.read_chunk_into(entry, buffer)?;
-    buffer.sort_by_time();
-    let mut items = Vec::with_capacity(buffer.len());
-    for message in buffer.messages() {
-        let Some(topic) = segment.topics.get(&message.channel) else { continue };
-        if segment.events.contains(&message.channel) {
-            let order = u64::from(message.sequence);
-            items.push(Item::of(order, message.log_time, topic, message.data));
+type Done = (Batch, Result<(), Damage>);
+
+/// What is to be decoded and what has been.
+struct Board {
+    tasks: Mutex<Tasks>,
+    /// Told whenever there is something new to take or to do.
+    news: Condvar,
+    count: usize,
+    ahead: usize,
+}
+
+#[derive(Default)]
+struct Tasks {
+    /// The next chunk that nobody decodes.
+    next: usize,
+    /// The next chunk that is to be handed on.
+    first: usize,
+    /// What has been decoded, from `first` on.
+    done: VecDeque<Option<Done>>,
+    /// Batches to be used again.
+    spare: Vec<Batch>,
+    over: bool,
+}
+
+/// Ends the work when dropped, also by a panic, so that nobody waits for ever.
+struct Over<'b>(&'b Board);
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.0.lock().over = true;
+        self.0.news.notify_all();
+    }
+}
+
+impl Board {
+    fn new(count: usize, ahead: usize) -> Self {
+        Self { tasks: Mutex::default(), news: Condvar::new(), count, ahead }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Tasks> {
+        self.tasks.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn wait<'t>(&self, tasks: MutexGuard<'t, Tasks>) -> MutexGuard<'t, Tasks> {
+        self.news.wait(tasks).unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The next chunk that nobody decodes, unless that is too far ahead.
+    fn claim(&self, tasks: &mut Tasks) -> Option<(usize, Batch)> {
+        if tasks.next >= self.count.min(tasks.first + self.ahead) {
+            return None;
+        }
+        tasks.next += 1;
+        tasks.done.push_back(None);
+        Some((tasks.next - 1, tasks.spare.pop().unwrap_or_default()))
+    }
+
+    fn put(&self, n: usize, done: Done) {
+        let mut tasks = self.lock();
+        let place = n - tasks.first;
+        if let Some(slot) = tasks.done.get_mut(place) {
+            *slot = Some(done);
+        }
+        drop(tasks);
+        self.news.notify_all();
+    }
+
+    /// Decodes what is to be decoded until there is nothing left.
+    fn work(&self, segment: &Segment, entries: &[&ChunkEntry]) {
+        let over = Over(self);
+        let mut decoder = Decoder::default();
+        let mut tasks = self.lock();
+        while !tasks.over && tasks.next < self.count {
+            let Some((n, mut batch)) = self.claim(&mut tasks) else {
+                tasks = self.wait(tasks);
+                continue;
+            };
+            drop(tasks);
+            let decoded = decoder.decode(segment, entries[n], &mut batch);
+            self.put(n, (batch, decoded));
+            tasks = self.lock();
+        }
+        drop(tasks);
+        // Left in good order: the others go on.
+        std::mem::forget(over);
+    }
+
+    /// What chunk `n` holds, which is the next one to be handed on. While that is not known, others
+    /// are decoded. `None` if a worker has panicked.
+    fn take(
+        &self,
+        n: usize,
+        segment: &Segment,
+        entries: &[&ChunkEntry],
+        decoder: &mut Decoder,
+    ) -> Option<Done> {
+        let mut tasks = self.lock();
+        loop {
+            if let Some(done) = tasks.done.front_mut().and_then(Option::take) {
+                tasks.done.pop_front();
+                tasks.first = n + 1;
+                drop(tasks);
+                self.news.notify_all();
+                return Some(done);
+            }
+            if tasks.over {
+                return None;
+            }
+            let Some((n, mut batch)) = self.claim(&mut tasks) else {
+                tasks = self.wait(tasks);
+                continue;
+            };
+            drop(tasks);
+            let decoded = decoder.decode(segment, entries[n], &mut batch);
+            self.put(n, (batch, decoded));
+            tasks = self.lock();
         }
     }
-    Ok(items)
 }

@@ -35,8 +35,8 @@ pub struct RecorderOptions {
     pub sync: SyncPolicy,
     /// Zstandard level of event chunks.
     pub zstd_level: i32,
-    /// A checkpoint is written when the event bytes since the last one are this many times its
-    /// own. With 10, checkpoints stay below a tenth of the events.
+    /// A checkpoint is written when the events since the last one take this many times its own
+    /// bytes in the file. With 10, checkpoints stay below a tenth of the events.
     pub checkpoint_ratio: u64,
 }
 
@@ -125,7 +125,8 @@ pub struct Recorder {
     updater: Updater,
     sink: Sink,
     ratio: u64,
-    event_bytes: u64,
+    /// Event bytes in the file when the last checkpoint was written.
+    counted: u64,
     /// What the next checkpoint will take, as far as can be guessed.
     checkpoint_bytes: u64,
 }
@@ -172,13 +173,15 @@ impl Recorder {
         let meta = Meta::new(updater.config().clone(), first_order, chain);
         let mut sink = Sink::create(&file, &meta, options)?;
         sink.append(&missing)?;
-        sink.checkpoint(Checkpoint::of(&updater))?;
+        let checkpoint = Checkpoint::of(&updater);
+        let packed = checkpoint.packed();
+        sink.checkpoint(checkpoint, packed)?;
         Ok(Self::over(updater, sink, options))
     }
 
     fn over(updater: Updater, sink: Sink, options: &RecorderOptions) -> Self {
-        let ratio = options.checkpoint_ratio.max(1);
-        Self { updater, sink, ratio, event_bytes: 0, checkpoint_bytes: 4096 }
+        let (ratio, counted) = (options.checkpoint_ratio.max(1), sink.event_bytes());
+        Self { updater, sink, ratio, counted, checkpoint_bytes: 4096 }
     }
 
     /// The updater: the graph by now, the number of the last event.
@@ -194,8 +197,8 @@ impl Recorder {
     /// is safe.
     pub fn record(&mut self, published: Stamp, input: Event) -> Result<Recorded, RecordError> {
         let events = self.updater.update(published, input)?;
-        self.event_bytes += self.sink.append(&events)?;
-        if self.event_bytes >= self.ratio * self.checkpoint_bytes {
+        self.sink.append(&events)?;
+        if self.is_checkpoint_due() {
             self.checkpoint()?;
         }
         Ok(Recorded { events, acknowledged: self.sink.acknowledged() })
@@ -218,13 +221,19 @@ impl Recorder {
         self.sink.finish(events, changes, self.updater.graph().hash())
     }
 
+    fn is_checkpoint_due(&self) -> bool {
+        let since = self.sink.event_bytes() - self.counted;
+        since >= self.ratio.saturating_mul(self.checkpoint_bytes)
+    }
+
     fn checkpoint(&mut self) -> Result<(), RecordError> {
         let checkpoint = Checkpoint::of(&self.updater);
-        self.checkpoint_bytes = checkpoint.state.len() as u64;
+        let packed = checkpoint.packed();
+        self.checkpoint_bytes = packed.len() as u64;
         // The guess may have been too small: then it is not due yet.
-        if self.event_bytes >= self.ratio * self.checkpoint_bytes {
-            self.sink.checkpoint(checkpoint)?;
-            self.event_bytes = 0;
+        if self.is_checkpoint_due() {
+            self.sink.checkpoint(checkpoint, packed)?;
+            self.counted = self.sink.event_bytes();
         }
         Ok(())
     }

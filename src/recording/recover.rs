@@ -219,7 +219,8 @@ impl<'r> Copy<'r> {
             self.world = world;
         }
         self.compare_link(&checkpoint);
-        let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode();
+        let packed = checkpoint.packed();
+        let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode(packed);
         let handle = self.channel(segment, message)?;
         let (sequence, at) = (message.sequence, message.log_time);
         self.writer.write(handle, sequence, at, message.publish_time, &payload)?;

@@ -84,8 +84,8 @@ impl Sink {
         })
     }
 
-    /// Appends the events of one update; returns how many bytes they take before compression.
-    pub fn append(&mut self, events: &[Logged]) -> Result<u64, RecordError> {
+    /// Appends the events of one update.
+    pub fn append(&mut self, events: &[Logged]) -> Result<(), RecordError> {
         let mut bytes = 0;
         for logged in events {
             bytes += self.append_one(logged)?;
@@ -97,8 +97,12 @@ impl Sink {
         if self.open_bytes >= EVENT_CHUNK_BYTES {
             self.close_chunks()?;
         }
-        self.settle()?;
-        Ok(bytes)
+        self.settle()
+    }
+
+    /// Bytes that events take in the file by now, those in the open chunk left out.
+    pub fn event_bytes(&self) -> u64 {
+        self.writer.stored(ChunkClass::Event)
     }
 
     fn append_one(&mut self, logged: &Logged) -> Result<u64, RecordError> {
@@ -133,10 +137,15 @@ impl Sink {
     }
 
     /// Writes a checkpoint of the state after the last event, and closes the link of the chain.
-    pub fn checkpoint(&mut self, mut checkpoint: Checkpoint) -> Result<(), RecordError> {
+    /// `packed` is its packed state.
+    pub fn checkpoint(
+        &mut self,
+        mut checkpoint: Checkpoint,
+        packed: Vec<u8>,
+    ) -> Result<(), RecordError> {
         self.flush()?;
         checkpoint.chain = self.chain.close();
-        let payload = checkpoint.encode();
+        let payload = checkpoint.encode(packed);
         let handle = self.own_channel(&Topic::Checkpoint)?.0;
         let at = checkpoint.at.nanos();
         let sequence = u32::try_from(checkpoint.order).unwrap_or(u32::MAX);

@@ -1,16 +1,17 @@
 //! [`State`]: what the robot believed at some point, by folding the recorded primitives.
 
+use super::batch::{Batch, Kind, Mark};
 use super::checkpoint::Checkpoint;
 use super::events::WalkError;
 use super::open::{Recording, Segment};
-use super::parallel::{Item, for_each_chunk};
+use super::parallel::for_each_chunk;
 use super::point::{Point, PointError};
-use crate::change::World;
+use crate::change::{Edit, World};
 use crate::container::ChunkEntry;
 use crate::event::Topic;
 use crate::graph::SceneGraph;
 use crate::time::{At, Stamp};
-use crate::wire;
+use crate::wire::{self, Labels};
 
 /// What the robot believed at some point of a recording.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +90,9 @@ impl Recording {
     /// Reads and verifies a checkpoint.
     pub(super) fn checkpoint(&self, at: &CheckpointRef) -> Result<Checkpoint, String> {
         let segment = &self.segments[at.segment];
-        let entry = segment.log.chunks().iter().find(|entry| entry.offset == at.offset);
+        let chunks = segment.log.chunks();
+        let place = chunks.binary_search_by_key(&at.offset, |entry| entry.offset);
+        let entry = place.ok().and_then(|place| chunks.get(place));
         let entry = entry.ok_or("it is not in the file any more")?;
         let mut buffer = crate::container::ChunkBuffer::new();
         segment.log.read_chunk_into(entry, &mut buffer).map_err(|damage| damage.to_string())?;
@@ -152,17 +155,14 @@ impl<'r> Fold<'r> {
 
     /// Starts from the last checkpoint before the point that can be used.
     fn start(&mut self) {
-        let before = self.recording.checkpoints().rev().filter(|c| self.is_before_point(c));
-        for at in before.copied().collect::<Vec<_>>() {
-            if self.load(&at) {
+        let (recording, point) = (self.recording, self.point);
+        let before = recording.checkpoints().rev().filter(|at| is_before(at, &point));
+        for at in before {
+            if self.load(at) {
                 break;
             }
         }
         self.note_gaps();
-    }
-
-    fn is_before_point(&self, at: &CheckpointRef) -> bool {
-        at.order <= self.point.last_order && at.at <= self.point.last_time
     }
 
     fn load(&mut self, at: &CheckpointRef) -> bool {
@@ -199,17 +199,19 @@ impl<'r> Fold<'r> {
 
     fn segment(&mut self, n: usize, segment: &'r Segment, threads: usize) -> Flow {
         let offset = if n == self.segment { self.offset } else { 0 };
-        let entries: Vec<&ChunkEntry> = event_chunks(segment)
+        let last_time = self.point.last_time.nanos();
+        let entries: Vec<&ChunkEntry> = segment
+            .event_chunks()
+            .take_while(|entry| entry.start_time <= last_time)
             .filter(|entry| entry.offset >= offset)
-            .filter(|entry| entry.start_time <= self.point.last_time.nanos())
             .collect();
         let mut flow = Flow::More;
-        for_each_chunk(segment, &entries, threads, &mut |entry, items| {
+        for_each_chunk(segment, &entries, threads, &mut |entry, batch| {
             if entry.offset < self.offset && n == self.segment {
                 return std::ops::ControlFlow::Continue(());
             }
-            match items {
-                Ok(items) => flow = self.take(segment, items),
+            match batch {
+                Ok(batch) => flow = self.take(segment, batch),
                 Err(damage) => self.lost(n, segment, entry, &damage),
             }
             match flow {
@@ -229,26 +231,25 @@ impl<'r> Fold<'r> {
         damage: &crate::container::Damage,
     ) {
         self.recording.report_damage(segment, damage);
-        let after = self.recording.checkpoints().copied();
-        let next: Vec<CheckpointRef> = after
-            .filter(|c| c.segment == n && c.offset > entry.offset && self.is_before_point(c))
-            .collect();
+        let (recording, point) = (self.recording, self.point);
+        let after = |at: &&CheckpointRef| at.segment == n && at.offset > entry.offset;
         self.uncertain = Some(damage.to_string());
-        for at in next {
-            if self.load(&at) {
+        for at in recording.checkpoints().filter(after).filter(|at| is_before(at, &point)) {
+            if self.load(at) {
                 return;
             }
         }
     }
 
-    fn take(&mut self, segment: &Segment, items: Vec<Item>) -> Flow {
-        for item in items {
-            if item.order > self.point.last_order || item.at > self.point.last_time {
+    fn take(&mut self, segment: &Segment, batch: &mut Batch) -> Flow {
+        let Batch { marks, edits } = batch;
+        for mark in marks.drain(..) {
+            if mark.order > self.point.last_order || mark.at > self.point.last_time {
                 return Flow::Done;
             }
-            if item.order > self.order {
-                self.check_next(segment, item.order);
-                self.apply(segment, item);
+            if mark.order > self.order {
+                self.check_next(segment, mark.order);
+                self.apply(segment, mark, edits);
             }
         }
         Flow::More
@@ -280,19 +281,22 @@ impl<'r> Fold<'r> {
         self.uncertain.get_or_insert(what);
     }
 
-    fn apply(&mut self, segment: &Segment, item: Item) {
-        (self.order, self.time) = (item.order, item.at);
-        if let Err(why) = item.content.and_then(|content| content.apply(&mut self.world)) {
-            self.doubt(segment, format!("event #{}: {why}", item.order));
+    fn apply(&mut self, segment: &Segment, mark: Mark, edits: &[Edit]) {
+        let order = mark.order;
+        (self.order, self.time) = (order, mark.at);
+        if let Err(why) = mark.apply(edits, &mut self.world) {
+            self.doubt(segment, format!("event #{order}: {why}"));
         }
     }
 
     /// Recordings of other programs are folded message by message.
     fn walk(&mut self) -> Result<(), WalkError> {
         let recording = self.recording;
+        let (mut batch, mut labels) = (Batch::default(), Labels::default());
         recording.walk(super::events::Walk::Events, (1, u64::MAX), &mut |segment, raw| {
-            let item = Item::of(raw.order, raw.log_time, raw.topic, raw.data);
-            match self.take(segment, vec![item]) {
+            batch.clear();
+            batch.push(Kind::of(raw.topic), raw.order, raw.log_time, raw.data, &mut labels);
+            match self.take(segment, &mut batch) {
                 Flow::More => std::ops::ControlFlow::Continue(()),
                 Flow::Done => std::ops::ControlFlow::Break(()),
             }
@@ -305,11 +309,6 @@ impl<'r> Fold<'r> {
     }
 }
 
-/// The chunks that may hold events, in the order of the log.
-fn event_chunks(segment: &Segment) -> impl Iterator<Item = &ChunkEntry> {
-    let holds_events =
-        |entry: &&ChunkEntry| segment.events.iter().any(|channel| entry.may_hold(*channel));
-    let mut entries: Vec<&ChunkEntry> = segment.log.chunks().iter().filter(holds_events).collect();
-    entries.sort_by_key(|entry| (entry.start_time, entry.offset));
-    entries.into_iter()
+fn is_before(at: &CheckpointRef, point: &Point) -> bool {
+    at.order <= point.last_order && at.at <= point.last_time
 }

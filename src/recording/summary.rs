@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::open::{Recording, Segment};
-use super::parallel::{Content, for_each_chunk};
 use crate::container::{ChunkBuffer, ChunkEntry};
 use crate::event::Topic;
 use crate::time::Stamp;
+use crate::wire;
 
 /// A topic and what is recorded on it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -135,15 +135,17 @@ fn holds_messages(entry: &ChunkEntry) -> bool {
 fn count_primitives(segment: &Segment) -> u64 {
     let channels: Vec<u16> = segment.channels_of(&Topic::Primitive).collect();
     let holds = |entry: &&ChunkEntry| channels.iter().any(|channel| entry.may_hold(*channel));
-    let entries: Vec<&ChunkEntry> = segment.log.chunks().iter().filter(holds).collect();
-    let mut count = 0;
-    for_each_chunk(segment, &entries, 1, &mut |_, items| {
-        for item in items.into_iter().flatten() {
-            if let Ok(Content::Transaction(transaction)) = item.content {
-                count += transaction.steps.len() as u64;
-            }
+    let (mut buffer, mut count) = (ChunkBuffer::new(), 0);
+    for entry in segment.log.chunks().iter().filter(holds) {
+        // What is damaged is told elsewhere.
+        if segment.log.read_chunk_into(entry, &mut buffer).is_err() {
+            continue;
         }
-        std::ops::ControlFlow::Continue(())
-    });
+        for message in buffer.messages().filter(|message| channels.contains(&message.channel)) {
+            let at = Stamp::from_nanos(message.log_time);
+            let transaction = wire::decode_transaction(at, message.data);
+            count += transaction.map_or(0, |transaction| transaction.steps.len() as u64);
+        }
+    }
     count
 }

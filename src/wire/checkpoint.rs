@@ -15,6 +15,8 @@ const STATE: u32 = 15;
 pub const MAX_STATE: u64 = 256 << 20;
 /// The first bytes of a payload that [`peek_checkpoint`] needs.
 pub const CHECKPOINT_PEEK: usize = 256;
+/// Most that is allocated on the word of a payload alone.
+const TRUSTED: u64 = 8 << 20;
 /// Level of zstd at which more costs time but hardly helps.
 const ZSTD_LEVEL: i32 = 3;
 
@@ -50,8 +52,18 @@ pub struct CheckpointMessage {
 
 /// The payload for a state of which `head` is true; the size is taken from `state` itself.
 pub fn encode_checkpoint(head: &CheckpointHead, state: &[u8]) -> Vec<u8> {
-    let state_zstd = zstd::bulk::compress(state, ZSTD_LEVEL)
-        .expect("compression into a buffer of its own size cannot fail");
+    let head = CheckpointHead { state_size: state.len() as u64, ..*head };
+    encode_packed_checkpoint(&head, pack_state(state))
+}
+
+/// A state as a payload holds it.
+pub fn pack_state(state: &[u8]) -> Vec<u8> {
+    zstd::bulk::compress(state, ZSTD_LEVEL)
+        .expect("compression into a buffer of its own size cannot fail")
+}
+
+/// The payload for a state that is packed already; all of `head` is true.
+pub fn encode_packed_checkpoint(head: &CheckpointHead, state_zstd: Vec<u8>) -> Vec<u8> {
     let message = proto::Checkpoint {
         version: head.version,
         order: head.order,
@@ -60,7 +72,7 @@ pub fn encode_checkpoint(head: &CheckpointHead, state: &[u8]) -> Vec<u8> {
         chain: head.chain.to_vec(),
         state_hash: head.state_hash.to_vec(),
         memory_hash: head.memory_hash.to_vec(),
-        state_size: state.len() as u64,
+        state_size: head.state_size,
         state_zstd,
     };
     message.encode_to_vec()
@@ -145,6 +157,11 @@ fn decompress(compressed: &[u8], size: u64) -> Result<Vec<u8>, WireError> {
     if size > MAX_STATE {
         let limit = MAX_STATE as usize;
         return Err(WireError::TooMuch { message: NAME, field: "state_size", limit });
+    }
+    if size <= TRUSTED {
+        let state = zstd::bulk::decompress(compressed, size as usize).ok();
+        let state = state.filter(|state| state.len() as u64 == size);
+        return state.ok_or(WireError::State { expected: size });
     }
     let mut state = Vec::new();
     let read = zstd::Decoder::with_buffer(compressed)

@@ -182,14 +182,19 @@ pub(super) fn other_time(stamp: Stamp, at: Option<Stamp>) -> Option<u64> {
     (Some(stamp) != at).then_some(stamp.nanos())
 }
 
-pub(super) fn read_object(mut fields: Fields<'_>, at: Stamp) -> Result<Object, WireError> {
+/// `read_label` reads the label: that may be more than once the same.
+pub(super) fn read_object(
+    mut fields: Fields<'_>,
+    at: Stamp,
+    read_label: &mut dyn FnMut(&Field<'_>) -> Result<Label, WireError>,
+) -> Result<Object, WireError> {
     const NAME: &str = "Object";
     let (mut label, mut pose, mut size, mut pose_source) = (None, None, None, None);
     let (mut decay_rate, mut last_observed) = (0.0, at);
     let (mut room, mut support) = (first(Layer::Room), None);
     while let Some(field) = fields.next()? {
         match field.number {
-            1 => label = Some(read_label(&field, NAME)?),
+            1 => label = Some(read_label(&field)?),
             2 => field.once(&mut pose, read_pose(field.message("Pose")?)?)?,
             3 => field.once(&mut size, read_size(field.message("Size")?)?)?,
             4 => decay_rate = read_decay_rate(&field)?,

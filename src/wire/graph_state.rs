@@ -1,13 +1,12 @@
 //! `GraphState`: a whole graph. Read entry by entry into a graph, never into a list of messages.
 
-use std::collections::BTreeMap;
-
 use super::common::{
     first, index, node, object, read_index, read_node, read_object, read_region, region,
 };
-use super::fields::{Fields, required};
+use super::fields::{Field, Fields, required};
+use super::labels::Labels;
 use super::{WireError, proto};
-use crate::graph::{GraphError, Layer, NodeId, Object, Placement, SceneGraph};
+use crate::graph::{Layer, NodeId, Object, SceneGraph};
 use crate::time::Stamp;
 
 pub(super) fn graph_state(graph: &SceneGraph) -> proto::GraphState {
@@ -42,7 +41,7 @@ pub(super) fn read_graph_state(at: Stamp, payload: &[u8]) -> Result<SceneGraph, 
     }
     read_access(fields.clone(), &mut graph)?;
     let resting = read_objects(fields, at, &mut graph)?;
-    rest(&mut graph, resting)?;
+    graph.set_supports(&resting)?;
     Ok(graph)
 }
 
@@ -96,9 +95,11 @@ fn read_objects(
     mut fields: Fields<'_>,
     at: Stamp,
     graph: &mut SceneGraph,
-) -> Result<BTreeMap<NodeId, Placement>, WireError> {
+) -> Result<Vec<(NodeId, NodeId)>, WireError> {
     const NAME: &str = "ObjectNode";
-    let mut resting = BTreeMap::new();
+    let mut labels = Labels::default();
+    let mut label = |field: &Field<'_>| labels.read(field, "Object");
+    let mut resting = Vec::new();
     while let Some(field) = fields.next()? {
         if field.number != 3 {
             continue;
@@ -107,46 +108,13 @@ fn read_objects(
         while let Some(field) = entry.next()? {
             match field.number {
                 1 => id = read_index(&field, "index", Layer::Object)?,
-                2 => field.once(&mut object, read_object(field.message("Object")?, at)?)?,
+                2 => field.once(&mut object, read_object(field.message("Object")?, at, &mut label)?)?,
                 _ => {}
             }
         }
         let object = required(object, NAME, "object")?;
-        let placement = Placement::of(&object);
+        resting.extend(object.support.map(|support| (id, support)));
         graph.insert_object(id, Object { support: None, ..object })?;
-        if placement.support.is_some() {
-            resting.insert(id, placement);
-        }
     }
     Ok(resting)
-}
-
-/// Puts objects on their supports, upper ones first: the graph looks for cycles downwards from
-/// the support, which then still rests on nothing, so that a high pile costs no more than a low
-/// one.
-fn rest(graph: &mut SceneGraph, mut resting: BTreeMap<NodeId, Placement>) -> Result<(), WireError> {
-    let mut above: BTreeMap<NodeId, usize> = BTreeMap::new();
-    for support in resting.values().filter_map(|to| to.support) {
-        *above.entry(support).or_default() += 1;
-    }
-    let mut free: Vec<NodeId> =
-        resting.keys().filter(|id| !above.contains_key(id)).copied().collect();
-    while let Some(id) = free.pop() {
-        let Some(to) = resting.remove(&id) else { continue };
-        graph.place_object(id, &to)?;
-        let Some(support) = to.support else { continue };
-        if let Some(count) = above.get_mut(&support) {
-            *count -= 1;
-            if *count == 0 {
-                free.push(support);
-            }
-        }
-    }
-    // What is left has something above it for ever.
-    match resting.pop_first() {
-        Some((id, to)) => {
-            Err(GraphError::SupportCycle { id, support: to.support.unwrap_or(id) }.into())
-        }
-        None => Ok(()),
-    }
 }

@@ -16,6 +16,7 @@ mod error;
 mod fields;
 mod graph_state;
 mod inputs;
+mod labels;
 pub mod ros2;
 mod schema;
 mod transaction;
@@ -32,12 +33,13 @@ mod proto {
 pub use change_record::MAX_EVIDENCE;
 pub use checkpoint::{
     CHECKPOINT_PEEK, CheckpointHead, CheckpointMessage, MAX_STATE, decode_checkpoint,
-    encode_checkpoint, peek_checkpoint,
+    encode_checkpoint, encode_packed_checkpoint, pack_state, peek_checkpoint,
 };
 pub use error::WireError;
 pub use inputs::MAX_UTTERANCE;
+pub use labels::Labels;
 pub use schema::{Schema, schema_of};
-pub use transaction::{MAX_TRANSACTION_ITEMS, decode_transaction};
+pub use transaction::{MAX_TRANSACTION_ITEMS, decode_edits, decode_transaction};
 
 use prost::Message;
 

@@ -2,7 +2,7 @@
 
 mod read;
 
-pub use read::{MAX_TRANSACTION_ITEMS, decode_transaction};
+pub use read::{MAX_TRANSACTION_ITEMS, decode_edits, decode_transaction};
 
 use super::common::{evidence, index, node, object, other_time, pose, pose_source, region, size};
 use super::proto;

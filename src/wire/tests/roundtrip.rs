@@ -3,11 +3,13 @@
 use proptest::prelude::*;
 use prost::Message;
 
+use crate::change::{Edit, Primitive};
 use crate::event::Event;
 use crate::testing;
 use crate::time::Stamp;
 use crate::wire::{
-    CHECKPOINT_PEEK, CheckpointHead, decode, decode_checkpoint, decode_transaction, encode,
+    CHECKPOINT_PEEK, CheckpointHead, Labels, decode, decode_checkpoint, decode_edits,
+    decode_transaction, encode,
     encode_checkpoint, peek_checkpoint, proto, transaction,
 };
 
@@ -64,6 +66,24 @@ proptest! {
         let generated = proto::Transaction::decode(&*payload).unwrap();
         prop_assert_eq!(&generated, &transaction::transaction(&it));
         prop_assert_eq!(decode_transaction(at, &generated.encode_to_vec()), Ok(it));
+    }
+
+    #[test]
+    fn replay_reads_of_a_transaction_what_it_changes(it in testing::transaction()) {
+        let mut edits = Vec::new();
+        let payload = encode(&Event::Transaction(it.clone()));
+        decode_edits(it.at, &payload, &mut Labels::default(), &mut edits).unwrap();
+        let explains = |primitive: &Primitive| match primitive {
+            Primitive::Find { candidates, chosen, .. } => {
+                chosen.is_none_or(|chosen| candidates.contains(&chosen))
+            }
+            _ => false,
+        };
+        let steps = it.steps.into_iter().map(|step| step.primitive).enumerate();
+        let changing = steps.filter(|(_, primitive)| !explains(primitive));
+        let expected: Vec<Edit> =
+            changing.map(|(step, primitive)| Edit { step, primitive }).collect();
+        prop_assert_eq!(edits, expected);
     }
 
     #[test]

@@ -1,0 +1,107 @@
+//! Writes the inputs that fuzzing starts from: recordings, payloads, states and texts that are
+//! valid. `cargo run --release --example fuzz_seeds -- RECORDINGS CORPUS`.
+
+use std::error::Error;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use scenefold::event::{Event, Topic};
+use scenefold::recording::{Recording, Walk};
+use scenefold::time::At;
+use scenefold::updater::{Config, Updater};
+use scenefold::wire;
+
+/// Larger seeds slow fuzzing down more than they help.
+const LARGEST: usize = 48 << 10;
+const PAYLOADS_PER_RECORDING: usize = 60;
+
+const TEXTS: [&str; 16] = [
+    "start",
+    "end",
+    "12.5s",
+    "1h30m",
+    "65d",
+    "#42",
+    "c7",
+    "1767571200000000000",
+    "2026-01-05T08:00:00Z",
+    "absent(mug)",
+    "in(mug, kitchen) and not held(O17)",
+    "on(mug, table) or count(cup) > 2",
+    "O17",
+    "mug",
+    r#"{"topic":"/robot/task_status","task_id":"t","status":"picked","object":"O1"}"#,
+    r#"{"topic":"/human/utterance","speaker":"a","text":"b"}"#,
+];
+
+const IMPORTS: [(u8, &str); 4] = [
+    (0, r#"{"rooms":[{"id":"R0","label":"hall"}],"objects":[{"id":"O0","label":"cup","room":"R0","support":null,"pose":{"position":[0,0,0],"orientation":{"w":1,"x":0,"y":0,"z":0}},"size":[1,1,1]}]}"#),
+    (1, r#"{"SPARK_ORIGIN":{"version":"1.1.0"},"nodes":[{"id":5692549928996306944,"layer":2,"attributes":{"type":"ObjectNodeAttributes","position":[0,0,0],"name":"","semantic_label":1}}],"edges":[],"layer_ids":[2,3,4,5]}"#),
+    (2, r#"{"nodes":[{"id":1,"class_name":"kitchen","category":"Rooms","bounding_box":{"center":[0,0,0],"size":[1,1,1]}}],"edges":[{"from_id":2,"to_id":1,"relation_type":"INSIDE"}]}"#),
+    (3, "split,day,minute,object_id,object,from_id,from,to_id,to\ntrain,0,1,2,cup,3,table,4,sink\n"),
+];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let (Some(recordings), Some(corpus)) = (arguments.next(), arguments.next()) else {
+        return Err("usage: fuzz_seeds RECORDINGS CORPUS".into());
+    };
+    let corpus = Path::new(&corpus);
+    for entry in fs::read_dir(recordings)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "mcap") {
+            of_recording(&path, corpus)?;
+        }
+    }
+    for (n, text) in TEXTS.iter().enumerate() {
+        put(corpus, "expr_at", &n.to_string(), text.as_bytes())?;
+    }
+    for (format, text) in IMPORTS {
+        put(corpus, "importers", &format.to_string(), &[&[format], text.as_bytes()].concat())?;
+    }
+    Ok(())
+}
+
+fn of_recording(path: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    put(corpus, "reader", &name, &fs::read(path)?)?;
+    let recording = Recording::open(path)?;
+    let mut updater = Updater::new(Config::default());
+    let mut count = 0;
+    let mut failed = None;
+    recording.visit_events(Walk::Events, (1, u64::MAX), &mut |logged| {
+        let written = payload(corpus, &name, count, &logged.event).and_then(|()| {
+            if logged.event.is_input() {
+                updater.update(logged.published, logged.event.clone())?;
+                put(corpus, "updater_bytes", &format!("{name}-{count}"), &updater.to_bytes())?;
+            }
+            Ok(())
+        });
+        failed = written.err();
+        count += 1;
+        match failed.is_some() || count >= PAYLOADS_PER_RECORDING {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    })?;
+    let graph = recording.state_at(At::End, 1)?.world;
+    put(corpus, "updater_bytes", &format!("{name}-graph"), &graph.graph().to_bytes())?;
+    failed.map_or(Ok(()), Err)
+}
+
+fn payload(corpus: &Path, name: &str, n: usize, event: &Event) -> Result<(), Box<dyn Error>> {
+    let topic = event.topic();
+    let place = Topic::OWN.iter().position(|own| *own == topic).unwrap_or(Topic::OWN.len());
+    let bytes = [vec![place as u8], wire::encode(event)].concat();
+    put(corpus, "wire", &format!("{name}-{n}"), &bytes)
+}
+
+fn put(corpus: &Path, target: &str, name: &str, bytes: &[u8]) -> Result<(), Box<dyn Error>> {
+    let folder = corpus.join(target);
+    fs::create_dir_all(&folder)?;
+    if bytes.len() <= LARGEST {
+        fs::write(folder.join(name), bytes)?;
+    }
+    Ok(())
+}

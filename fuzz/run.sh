@@ -1,0 +1,14 @@
+#!/usr/bin/env bash
+# Runs every fuzz target for a while. Usage: fuzz/run.sh [SECONDS]. Works on the stable toolchain:
+# there is no unsafe code here to sanitise, and panics, hangs and memory are watched without.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+seconds="${1:-60}"
+command -v cargo-fuzz >/dev/null || cargo install cargo-fuzz --locked --quiet
+cargo run --quiet --release --example fuzz_seeds -- recordings fuzz/corpus
+for target in reader wire importers updater_bytes expr_at; do
+  echo "-- $target"
+  cargo fuzz run --sanitizer none "$target" -- -max_total_time="$seconds" -timeout=10 \
+    -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1 2>&1 \
+    | { grep -E "ERROR|SUMMARY|panicked|artifact|stat::|Done" || true; }
+done
