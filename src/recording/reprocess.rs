@@ -65,14 +65,14 @@ pub type UpdateSink<'s, E> = dyn FnMut(&Logged, &[Logged]) -> Result<(), E> + 's
 /// was recorded, and hands each update to `sink`, for example to record it anew.
 pub fn reprocess<E>(
     recording: &Recording,
-    config: Config,
+    config: &Config,
     sink: &mut UpdateSink<'_, E>,
 ) -> Result<Reprocessed, ReprocessError<E>> {
     let mut again = Again::new(Updater::new(config.clone()));
     let (mut failure, mut expected) = (None, 1);
     recording.visit_events(Walk::Everything, (1, u64::MAX), &mut |logged| {
         if logged.order > expected && recording.is_numbered() {
-            let Some((next, updater)) = after_gap(recording, logged.order, &config) else {
+            let Some((next, updater)) = after_gap(recording, logged.order, config) else {
                 return ControlFlow::Break(());
             };
             again.go_on_from(updater);

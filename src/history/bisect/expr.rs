@@ -76,9 +76,12 @@ impl Expr {
             Self::Not(inner) => inner.names(),
             Self::All(parts) | Self::Any(parts) => parts.iter().flat_map(Self::names).collect(),
             Self::Test(test) => match test {
-                Test::Present(who) | Test::Absent(who) | Test::Held(who) => vec![who],
+                Test::Present(who)
+                | Test::Absent(who)
+                | Test::Held(who)
+                | Test::Count(who, _)
+                | Test::Probability(who, _) => vec![who],
                 Test::In(who, place) | Test::On(who, place) => vec![who, place],
-                Test::Count(who, _) | Test::Probability(who, _) => vec![who],
                 Test::Tally(..) => vec![],
             },
         }

@@ -161,7 +161,7 @@ impl Check<'_> {
     fn compare_link(&mut self, segment: &Segment, checkpoint: &Checkpoint) {
         if self.chain.close() == checkpoint.chain {
             self.checkpoints += 1;
-        } else if self.damaged {
+        } else if self.blame() == Status::Corrupt {
             // A link was made at a checkpoint that cannot be read.
             self.ever_lost = true;
             self.chain = Chain::after(checkpoint.chain);

@@ -115,8 +115,6 @@ struct Check<'r> {
     /// Something is missing that the recording does not know of: links cannot be compared.
     lost: bool,
     ever_lost: bool,
-    /// Some chunk cannot be read.
-    damaged: bool,
     changes: u64,
     primitives: u64,
     /// Where the last segment ended.
@@ -142,7 +140,6 @@ impl<'r> Check<'r> {
             broken: false,
             lost: false,
             ever_lost: false,
-            damaged: false,
             changes: 0,
             primitives: 0,
             ended: None,

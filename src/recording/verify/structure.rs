@@ -44,7 +44,6 @@ impl Check<'_> {
         let chunks = segment.log.chunks();
         for (n, entry) in chunks.iter().enumerate() {
             if let Err(damage) = segment.log.read_chunk_into(entry, &mut buffer) {
-                self.damaged = true;
                 self.find(Status::Corrupt, segment, damage.to_string());
                 continue;
             }
