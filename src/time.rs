@@ -60,9 +60,14 @@ impl FromStr for Stamp {
     fn from_str(text: &str) -> Result<Self, TimeError> {
         let instant: Timestamp =
             text.parse().map_err(|_| TimeError::Instant { text: text.to_owned() })?;
-        u64::try_from(instant.as_nanosecond())
-            .map(Self::from_nanos)
-            .map_err(|_| TimeError::BeforeEpoch { text: text.to_owned() })
+        let nanos = u64::try_from(instant.as_nanosecond());
+        match nanos {
+            Ok(nanos) if nanos <= Self::MAX.0 => Ok(Self(nanos)),
+            _ if instant < Timestamp::UNIX_EPOCH => {
+                Err(TimeError::BeforeEpoch { text: text.to_owned() })
+            }
+            _ => Err(TimeError::TooLate { text: text.to_owned() }),
+        }
     }
 }
 
@@ -78,6 +83,12 @@ pub enum TimeError {
     /// Before 1970.
     #[error("{text:?} is before 1970, where recordings begin")]
     BeforeEpoch {
+        /// What was given.
+        text: String,
+    },
+    /// After 2262.
+    #[error("{text:?} is after 2262-04-11, where nanoseconds in 64 bits end")]
+    TooLate {
         /// What was given.
         text: String,
     },
@@ -160,7 +171,7 @@ impl FromStr for At {
         }
         match text.parse() {
             Ok(stamp) => Ok(Self::Instant(stamp)),
-            Err(before @ TimeError::BeforeEpoch { .. }) => Err(before),
+            Err(beyond @ (TimeError::BeforeEpoch { .. } | TimeError::TooLate { .. })) => Err(beyond),
             Err(_) => Err(unknown()),
         }
     }
@@ -274,6 +285,9 @@ mod tests {
         {
             let parsed = text.parse::<At>();
             assert!(text == "12" || parsed.is_err(), "{text}: {parsed:?}");
+        }
+        for text in ["2262-04-12T00:00:00Z", "2500-01-01T00:00:00Z", "2600-01-01T00:00:00Z"] {
+            assert_eq!(text.parse::<Stamp>(), Err(TimeError::TooLate { text: text.to_owned() }));
         }
         let message = "soon".parse::<At>().unwrap_err().to_string();
         assert!(message.contains("36h") && message.contains("c7"), "{message}");

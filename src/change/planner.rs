@@ -61,10 +61,8 @@ fn plan_added(
         return plan_moved(world, claim, at);
     }
     let label = claim.object.label.clone().ok_or(Rejection::NothingNamed)?;
-    let id = match claim.object.id {
-        Some(id) if id.layer() == Layer::Object => id,
-        _ => world.fresh_id(Layer::Object)?,
-    };
+    // An id that nobody knows says nothing about which thing it is: ids are given here.
+    let id = world.fresh_id(Layer::Object)?;
     let size = claim.size.unwrap_or(config.size);
     let target = find_target(world, claim, None, size, at)?;
     let object = Object {
@@ -222,6 +220,13 @@ fn find_subject(world: &World, claim: &Claim) -> Result<(NodeId, Primitive), Rej
     };
     let near = claim.pose.as_ref().filter(|_| removal);
     let found = find_object(world, &claim.object, &Hints { room, support, near, not: None })?;
+    let label = world.known(found.id).map(|object| &object.label);
+    if let (Some(label), Some(claimed)) = (label, &claim.object.label)
+        && !label.same_class(claimed.as_str())
+    {
+        let (id, label, claimed) = (found.id, label.clone(), claimed.clone());
+        return Err(Rejection::Contradiction { id, label, claimed });
+    }
     Ok((found.id, found.find))
 }
 
@@ -271,7 +276,14 @@ fn find_support(
     };
     match find_object(world, wanted, &hints).map(present) {
         Ok(Some(support)) => Ok((Some(support), String::new())),
-        Ok(None) if room.is_none() => Err(Rejection::UnknownSupport { wanted: wanted.clone() }),
+        Ok(None) if room.is_none() => {
+            let held = wanted.id.is_some_and(|id| world.graph().object(id).is_some());
+            let support = wanted.clone();
+            Err(match held {
+                true => Rejection::SupportHeld { support },
+                false => Rejection::UnknownSupport { wanted: support },
+            })
+        }
         Err(rejection) if room.is_none() => Err(match rejection {
             Rejection::UnknownObject { wanted, .. } => Rejection::UnknownSupport { wanted },
             other => other,
@@ -292,7 +304,7 @@ pub(crate) fn topological_pose(
     let above = |id: NodeId| {
         let support = graph.object(id)?;
         let [x, y, z] = support.pose.position();
-        let lift = (support.size.metres()[2] + size.metres()[2]) / 2.0;
+        let lift = f64::midpoint(support.size.metres()[2], size.metres()[2]);
         Pose::at([x, y, z + lift]).ok()
     };
     let middle = || Some(graph.region(room)?.extent?.0);

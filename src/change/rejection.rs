@@ -1,7 +1,7 @@
 //! Why a claim is not applied: a value, recorded with the change.
 
 use super::{NodeRef, WorldError};
-use crate::graph::NodeId;
+use crate::graph::{Label, NodeId};
 
 /// Why a change record was rejected. The graph is unchanged in every case.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -16,6 +16,16 @@ pub enum Rejection {
         wanted: NodeRef,
         /// ` in the kitchen`, ` on the table`, or empty.
         where_: String,
+    },
+    /// The id and the label name different things.
+    #[error("{id} is a {label}, not a {claimed}")]
+    Contradiction {
+        /// The id.
+        id: NodeId,
+        /// What it is.
+        label: Label,
+        /// What it is said to be.
+        claimed: Label,
     },
     /// Several do.
     #[error("{wanted} is ambiguous: {}", join(.candidates))]
@@ -94,6 +104,12 @@ pub enum Rejection {
         /// What it may have been.
         candidates: Vec<NodeId>,
     },
+    /// Nothing can be put on what is in the gripper.
+    #[error("{support} is in the gripper: nothing can be put on it")]
+    SupportHeld {
+        /// The would-be support.
+        support: NodeRef,
+    },
     /// The graph itself refused.
     #[error("the graph refuses: {0}")]
     Refused(#[from] WorldError),
@@ -105,6 +121,7 @@ impl Rejection {
         match self {
             Self::NothingNamed => "nothing_named",
             Self::UnknownObject { .. } => "unknown_object",
+            Self::Contradiction { .. } => "contradiction",
             Self::Ambiguous { .. } => "ambiguous",
             Self::UnknownRoom { .. } => "unknown_room",
             Self::UnknownSupport { .. } => "unknown_support",
@@ -116,6 +133,7 @@ impl Rejection {
             Self::FailedHolding { .. } => "failed_holding",
             Self::DoneHolding { .. } => "done_holding",
             Self::PlacedAmbiguous { .. } => "placed_ambiguous",
+            Self::SupportHeld { .. } => "support_held",
             Self::Refused(_) => "refused",
         }
     }

@@ -61,9 +61,15 @@ impl World {
         self.graph.object(id).or_else(|| self.departed(id))
     }
 
-    /// An id that was never used.
+    /// An id that was never used: one more than the last one, or where somebody has used the
+    /// very last one, the first that is free.
     pub fn fresh_id(&self, layer: Layer) -> Result<NodeId, WorldError> {
-        NodeId::new(layer, self.next[layer as usize]).ok_or(WorldError::NoIdLeft { layer })
+        let next = NodeId::new(layer, self.next[layer as usize]);
+        let free = |id: &NodeId| !self.graph.contains(*id) && !self.departed.contains_key(id);
+        let any = || {
+            (0..=NodeId::MAX_INDEX).filter_map(|index| NodeId::new(layer, index)).find(free)
+        };
+        next.or_else(any).ok_or(WorldError::NoIdLeft { layer })
     }
 
     /// The next index of each layer, in the order of [`Layer::ALL`].

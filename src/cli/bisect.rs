@@ -4,6 +4,7 @@ use std::io::Write;
 use std::ops::ControlFlow;
 
 use super::output::Output;
+use super::progress::Counted;
 use super::source::{self, RecordingArg};
 use super::{Outcome, UsageError};
 use crate::event::Event;
@@ -38,7 +39,7 @@ pub struct Bisect {
 pub fn run(args: &Bisect, out: &mut Output) -> anyhow::Result<Outcome> {
     let expr: Expr = args.when.parse().map_err(|error| UsageError(format!("--when: {error}")))?;
     let recording = source::open(&args.recording.path)?;
-    let hit = first_holding(&recording, &expr)?;
+    let hit = first_holding(&Counted::new(&recording), &expr)?;
     if args.json {
         out.json(&BisectDocument::of(hit.as_ref()))?;
     } else {

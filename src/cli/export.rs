@@ -1,10 +1,9 @@
 //! `scenefold export`
 
-use std::fs::OpenOptions;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::Write;
+use std::path::PathBuf;
 
-use anyhow::Context;
 use clap::ValueEnum;
 
 use super::Outcome;
@@ -13,6 +12,7 @@ use super::replay::state_at;
 use super::source::{self, RecordingArg};
 use crate::interchange::scene::SceneDocument;
 use crate::interchange::{dot, spark_dsg};
+use crate::recording::RecordError;
 use crate::time::At;
 
 /// The graph for other tools
@@ -57,16 +57,11 @@ pub fn run(args: &Export, out: &mut Output) -> anyhow::Result<Outcome> {
         Format::Dot => dot::export(graph),
     };
     match &args.out {
-        Some(path) => {
-            write_new(path, &text).with_context(|| path.display().to_string())?;
-        }
+        // Like everything here, it overwrites nothing: least of all the recording itself.
+        Some(path) => File::create_new(path)
+            .and_then(|mut file| file.write_all(text.as_bytes()))
+            .map_err(|error| RecordError::io(path, error))?,
         None => out.write_all(text.as_bytes())?,
     }
     Ok(source::warn(&recording))
-}
-
-/// A file that is there may be the recording itself.
-fn write_new(path: &Path, text: &str) -> io::Result<()> {
-    let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
-    file.write_all(text.as_bytes())
 }

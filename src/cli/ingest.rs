@@ -1,7 +1,8 @@
 //! `scenefold ingest`
 
 use std::io::{self, BufRead, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
 use anyhow::Context;
@@ -44,9 +45,10 @@ pub struct Ingest {
     #[arg(long, value_name = "GRAPH")]
     graph: Option<PathBuf>,
     /// When an update is acknowledged
-    #[arg(long, default_value = "never")]
+    #[arg(long, default_value = "none")]
     sync: Sync,
-    /// With `--sync interval`: how often the disk is synced
+    /// With --sync interval: how often the disk is synced; with any policy: how long an update
+    /// waits for an acknowledgement when no other follows
     #[arg(long, value_name = "SPAN", default_value = "1s")]
     interval: Span,
     /// Configuration (JSON) of a new recording
@@ -61,7 +63,8 @@ enum Sync {
     /// Once it is on the disk, which is synced at most every --interval
     Interval,
     /// Once the operating system has it
-    Never,
+    #[value(alias = "never")]
+    None,
 }
 
 #[derive(Serialize)]
@@ -81,20 +84,51 @@ struct Refusal {
 pub fn run(args: &Ingest, out: &mut Output) -> anyhow::Result<Outcome> {
     let mut recorder = args.recorder()?;
     let mut outcome = Outcome::Clean;
-    for (line, number) in io::stdin().lock().lines().zip(1_u64..) {
-        let line = line.context("reading standard input")?;
-        if line.trim().is_empty() {
-            continue;
-        }
-        if !take(&mut recorder, &line, number, out)? {
+    let lines = lines_of_stdin();
+    let idle = Duration::from_nanos(args.interval.0);
+    let mut number = 0;
+    loop {
+        let line = match lines.recv_timeout(idle) {
+            Ok(line) => line.context("reading standard input")?,
+            // Nobody says anything: what was said last should not wait for more.
+            Err(RecvTimeoutError::Timeout) => {
+                if recorder.acknowledged() < recorder.updater().order() {
+                    acknowledge(&mut recorder, out)?;
+                }
+                continue;
+            }
+            Err(RecvTimeoutError::Disconnected) => break,
+        };
+        number += 1;
+        if !line.trim().is_empty() && !take(&mut recorder, &line, number, out)? {
             outcome = Outcome::Findings;
         }
         out.flush()?;
     }
-    let (order, acknowledged) = (recorder.updater().order(), recorder.sync()?);
-    out.json_line(&Acknowledgement { order, acknowledged, changes: Vec::new() })?;
+    acknowledge(&mut recorder, out)?;
     recorder.finish()?;
     Ok(outcome)
+}
+
+/// Lines as they arrive, read by a thread so that waiting for one can be given up.
+fn lines_of_stdin() -> Receiver<io::Result<String>> {
+    let (sender, receiver) = sync_channel(1024);
+    std::thread::spawn(move || {
+        for line in io::stdin().lock().lines() {
+            if sender.send(line).is_err() {
+                return;
+            }
+        }
+    });
+    receiver
+}
+
+/// Makes everything safe, and says so.
+fn acknowledge(recorder: &mut Recorder, out: &mut Output) -> anyhow::Result<()> {
+    let (acknowledged, order) = (recorder.sync()?, recorder.updater().order());
+    out.json_line(&Acknowledgement { order, acknowledged, changes: Vec::new() })?;
+    out.flush()?;
+    Ok(())
 }
 
 /// Records one line and answers it; `false` if it was refused or rejected.
@@ -142,7 +176,7 @@ impl Ingest {
         let sync = match self.sync {
             Sync::Every => SyncPolicy::Every,
             Sync::Interval => SyncPolicy::Interval(Duration::from_nanos(self.interval.0)),
-            Sync::Never => SyncPolicy::Never,
+            Sync::None => SyncPolicy::Never,
         };
         let options = RecorderOptions { sync, ..RecorderOptions::default() };
         let goes_on = self.out.is_dir() && std::fs::read_dir(&self.out)?.next().is_some();
@@ -160,7 +194,7 @@ impl Ingest {
             }
             None => Config::default(),
         };
-        let initial = self.graph.as_ref().map(initial_graph).transpose()?;
+        let initial = self.graph.as_deref().map(initial_graph).transpose()?;
         let mut recorder = Recorder::create(&self.out, config, &options)?;
         if let Some((graph, at)) = initial {
             recorder.record(at, Event::InitialGraph(graph))?;
@@ -169,7 +203,7 @@ impl Ingest {
     }
 }
 
-fn initial_graph(path: &PathBuf) -> anyhow::Result<(crate::graph::SceneGraph, Stamp)> {
+fn initial_graph(path: &Path) -> anyhow::Result<(crate::graph::SceneGraph, Stamp)> {
     if is_mcap(path) {
         let recording = source::open(path)?;
         let state = state_at(&recording, At::End)?;

@@ -104,19 +104,16 @@ pub fn print(record: &ChangeRecord, out: &mut Output) -> anyhow::Result<()> {
     );
     let mut part = |word: &str, node: &Option<NodeRef>| {
         if let Some(node) = node {
-            line.push_str(&format!(" {word} {node}"));
+            line.extend([" ", word, " ", &node.to_string()]);
         }
     };
-    match claim.action {
-        Action::Removed => {
-            part("off", &claim.support);
-            part("in", &claim.source_room);
-        }
-        _ => {
-            part("from", &claim.source_room);
-            part("to", &claim.target_room);
-            part("on", &claim.support);
-        }
+    if claim.action == Action::Removed {
+        part("off", &claim.support);
+        part("in", &claim.source_room);
+    } else {
+        part("from", &claim.source_room);
+        part("to", &claim.target_room);
+        part("on", &claim.support);
     }
     match &record.outcome {
         ChangeOutcome::Applied => writeln!(out, "{line}")?,

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::Outcome;
 use super::output::{Output, plain};
 use super::progress::counter;
-use super::source::RecordingArg;
+use super::source::{self, RecordingArg};
 use crate::recording::{LostEvents, Recovered, recover};
 
 /// Save what is intact of a damaged recording
@@ -33,6 +33,7 @@ pub struct Recover {
 struct RecoverDocument {
     messages_recovered: u64,
     lost: Vec<LostDocument>,
+    edited_before: Option<u64>,
     damage: Vec<String>,
 }
 
@@ -45,15 +46,17 @@ struct LostDocument {
 /// Runs `scenefold recover`.
 pub fn run(args: &Recover, out: &mut Output) -> anyhow::Result<Outcome> {
     let progress = counter("messages recovered");
-    let path = &args.recording.path;
-    let recovered = recover(path, &args.out, &mut |messages| progress.set_position(messages))?;
+    let recording = source::scan(&args.recording.path)?;
+    let recovered =
+        recover(&recording, &args.out, &mut |messages| progress.set_position(messages))?;
     progress.finish_and_clear();
     if args.json {
         out.json(&document(&recovered))?;
     } else {
         print(&recovered, out)?;
     }
-    let whole = recovered.events.is_empty() && recovered.damage.is_empty();
+    let whole =
+        recovered.events.is_empty() && recovered.damage.is_empty() && recovered.edited.is_none();
     Ok(if whole { Outcome::Clean } else { Outcome::Findings })
 }
 
@@ -62,6 +65,7 @@ fn document(recovered: &Recovered) -> RecoverDocument {
     RecoverDocument {
         messages_recovered: recovered.messages,
         lost: recovered.events.iter().map(lost).collect(),
+        edited_before: recovered.edited,
         damage: recovered.damage.clone(),
     }
 }
@@ -73,6 +77,12 @@ fn print(recovered: &Recovered, out: &mut Output) -> anyhow::Result<()> {
             Some(last) => writeln!(out, "lost: events #{first} to #{last}")?,
             None => writeln!(out, "lost: whatever came from event #{first} on")?,
         }
+    }
+    if let Some(order) = recovered.edited {
+        writeln!(
+            out,
+            "edited: the hash chain does not hold up to event #{order}; verify will say so"
+        )?;
     }
     for line in &recovered.damage {
         writeln!(out, "damage: {}", plain(line))?;

@@ -20,11 +20,24 @@ pub struct RecordingArg {
 /// Opens the recording at `path`, or the one on standard input if that is `-`.
 pub fn open(path: &Path) -> anyhow::Result<Recording> {
     if path == Path::new("-") {
-        let mut bytes = Vec::new();
-        io::stdin().lock().read_to_end(&mut bytes).context("reading standard input")?;
-        return Ok(Recording::from_bytes("standard input", bytes)?);
+        return Ok(Recording::from_bytes("standard input", stdin_bytes()?)?);
     }
     Ok(Recording::open(path)?)
+}
+
+/// As [`open`], without trusting any index.
+pub fn scan(path: &Path) -> anyhow::Result<Recording> {
+    if path == Path::new("-") {
+        return Ok(Recording::scan_bytes("standard input", stdin_bytes()?)?);
+    }
+    Ok(Recording::scan(path)?)
+}
+
+/// All of standard input.
+pub fn stdin_bytes() -> anyhow::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    io::stdin().lock().read_to_end(&mut bytes).context("reading standard input")?;
+    Ok(bytes)
 }
 
 /// The text of a file, or of standard input if `path` is `-`.

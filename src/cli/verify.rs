@@ -6,11 +6,11 @@ use std::path::Path;
 use anyhow::bail;
 use serde::Serialize;
 
+use super::Outcome;
 use super::output::{Output, Style, plain};
 use super::progress::counter;
-use super::source::RecordingArg;
-use super::{Outcome, UsageError};
-use crate::recording::{Status, Verified, verify};
+use super::source::{self, RecordingArg};
+use crate::recording::{Status, Verified, verify, verify_bytes};
 
 /// Is the recording whole, unedited, and does it replay to the same states
 #[derive(Debug, clap::Args)]
@@ -39,7 +39,7 @@ pub struct Verify {
 struct VerifyDocument {
     status: &'static str,
     hash: String,
-    chain: String,
+    chain: Option<String>,
     events: u64,
     checkpoints: u64,
     reprocessed: u64,
@@ -57,11 +57,11 @@ struct FindingDocument {
 /// Runs `scenefold verify`.
 pub fn run(args: &Verify, out: &mut Output) -> anyhow::Result<Outcome> {
     let path = &args.recording.path;
-    if path == Path::new("-") {
-        return Err(UsageError("verify reads a recording twice: give it a file".to_owned()).into());
-    }
     let progress = counter("events verified");
-    let verified = verify(path, &mut |events| progress.set_position(events))?;
+    let verified = match path == Path::new("-") {
+        true => verify_bytes("standard input", source::stdin_bytes()?)?,
+        false => verify(path, &mut |events| progress.set_position(events))?,
+    };
     progress.finish_and_clear();
     if args.json {
         out.json(&document(&verified))?;
@@ -69,7 +69,7 @@ pub fn run(args: &Verify, out: &mut Output) -> anyhow::Result<Outcome> {
         print(&verified, out)?;
     }
     if let Some(expected) = &args.chain {
-        let found = verified.chain.to_string();
+        let found = chain(&verified);
         if *expected != found {
             out.flush()?;
             bail!(
@@ -78,6 +78,11 @@ pub fn run(args: &Verify, out: &mut Output) -> anyhow::Result<Outcome> {
         }
     }
     Ok(if verified.status == Status::Intact { Outcome::Clean } else { Outcome::Findings })
+}
+
+fn chain(verified: &Verified) -> String {
+    let unknown = || "unknown, for events are missing".to_owned();
+    verified.chain.map_or_else(unknown, |link| link.to_string())
 }
 
 fn document(verified: &Verified) -> VerifyDocument {
@@ -89,7 +94,7 @@ fn document(verified: &Verified) -> VerifyDocument {
     VerifyDocument {
         status: verified.status.as_str(),
         hash: verified.hash.to_string(),
-        chain: verified.chain.to_string(),
+        chain: verified.chain.map(|link| link.to_string()),
         events: verified.events,
         checkpoints: verified.checkpoints,
         reprocessed: verified.reprocessed,
@@ -106,7 +111,7 @@ fn print(verified: &Verified, out: &mut Output) -> anyhow::Result<()> {
         "  {} events, {} checkpoints right, {} inputs gave again what was recorded",
         verified.events, verified.checkpoints, verified.reprocessed
     )?;
-    writeln!(out, "  state {}\n  chain {}", verified.hash, verified.chain)?;
+    writeln!(out, "  state {}\n  chain {}", verified.hash, chain(verified))?;
     for gap in &verified.gaps {
         writeln!(out, "  recovered earlier: events after #{gap} are missing")?;
     }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 
 use super::output::Output;
+use super::progress::Counted;
 use super::source::{self, RecordingArg};
 use super::{Outcome, UsageError};
 use crate::event::Event;
@@ -40,7 +41,7 @@ pub fn run(args: &Why, out: &mut Output) -> anyhow::Result<Outcome> {
     let recording = source::open(&args.recording.path)?;
     let upto = recording.state_at(args.at, source::threads())?.order;
     let Ok(who) = args.object.parse::<Selector>();
-    let life = match why(&recording, upto, &who) {
+    let life = match why(&Counted::new(&recording), upto, &who) {
         Ok(life) => life,
         // Which object is meant is for the user to say.
         Err(error @ WhyError::Ambiguous { .. }) => return Err(UsageError(error.to_string()).into()),

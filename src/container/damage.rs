@@ -55,6 +55,9 @@ pub enum DamageKind {
     /// The summary section, which is only an index: the log was read without it.
     #[error("the summary is damaged, the file was scanned instead")]
     Summary,
+    /// Message indexes that do not fit the chunk before them.
+    #[error("the message indexes do not fit the chunk before them; no message is lost")]
+    MessageIndex,
     /// A chunk that is not the one its index promised.
     #[error("the chunk does not match its index")]
     IndexMismatch,

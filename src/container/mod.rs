@@ -25,6 +25,7 @@ mod entry;
 mod examine;
 mod file;
 mod filter;
+mod index;
 mod learn;
 mod limits;
 mod open_chunk;

@@ -5,6 +5,52 @@ use std::sync::Arc;
 use crate::change::{EvidenceRef, NodeRef};
 use crate::geometry::Pose;
 
+/// Longest name of a task or a speaker, in bytes.
+pub const MAX_NAME: usize = 64 << 10;
+/// Longest sentence, in bytes.
+pub const MAX_SENTENCE: usize = 1 << 20;
+/// Longest payload of a sensor message, in bytes.
+pub const MAX_PAYLOAD: usize = 32 << 20;
+
+/// An input that is too long to be recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{field} has {bytes} bytes, at most {limit} can be recorded")]
+pub struct TooLong {
+    /// Which part of it.
+    pub field: &'static str,
+    /// How long it is.
+    pub bytes: usize,
+    /// How long it may be.
+    pub limit: usize,
+}
+
+fn check(field: &'static str, bytes: usize, limit: usize) -> Result<(), TooLong> {
+    if bytes > limit { Err(TooLong { field, bytes, limit }) } else { Ok(()) }
+}
+
+impl super::Event {
+    /// Checks that an input is short enough to be recorded and read back.
+    pub fn check_length(&self) -> Result<(), TooLong> {
+        match self {
+            Self::Utterance(it) => {
+                check("speaker", it.speaker.len(), MAX_NAME)?;
+                check("text", it.text.len(), MAX_SENTENCE)
+            }
+            Self::Task(it) => {
+                check("task_id", it.task_id.len(), MAX_NAME)?;
+                check("instruction", it.instruction.len(), MAX_SENTENCE)
+            }
+            Self::TaskStatus(it) => check("task_id", it.task_id.len(), MAX_NAME),
+            Self::Sensor(it) => {
+                check("schema", it.schema.len(), MAX_SENTENCE)?;
+                check("topic", it.topic.len(), MAX_NAME)?;
+                check("data", it.data.len(), MAX_PAYLOAD)
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
 /// Somebody said something.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Utterance {

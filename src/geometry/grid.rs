@@ -10,7 +10,7 @@ pub type Micrometres = i64;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GeometryError {
     /// NaN, infinite, or farther than 10,000 km.
-    #[error("{what} is {value}: it must be a number within ±10,000 km, in metres")]
+    #[error("{what} is {value:?}: it must be a number within ±10,000 km, in metres")]
     OutOfRange {
         /// Which quantity.
         what: &'static str,
@@ -32,7 +32,7 @@ pub enum GeometryError {
         z: f64,
     },
     /// A box side that is not positive.
-    #[error("{what} is {value}: a box side must be positive, in metres")]
+    #[error("{what} is {value:?}: a box side must be positive, in metres")]
     NotPositive {
         /// Which side.
         what: &'static str,

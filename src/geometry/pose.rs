@@ -101,7 +101,7 @@ impl Pose {
     }
 
     /// Where this pose goes when what carries it moves rigidly from `before` to `after`:
-    /// X' = X_after · X_before⁻¹ · X.
+    /// `X' = X_after · X_before⁻¹ · X`.
     pub fn carried(&self, before: &Self, after: &Self) -> Result<Self, GeometryError> {
         let moved = after.isometry() * before.isometry().inverse() * self.isometry();
         Self::from_isometry(&moved)

@@ -100,7 +100,7 @@ impl SceneGraph {
 
     /// The region of `layer` that `id` belongs to, directly or through others.
     pub fn ancestor(&self, id: NodeId, layer: Layer) -> Option<NodeId> {
-        let mut current = self.object(id).map(|object| object.room).unwrap_or(id);
+        let mut current = self.object(id).map_or(id, |object| object.room);
         while current.layer() < layer {
             current = self.region(current)?.parent?;
         }

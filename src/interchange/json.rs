@@ -10,6 +10,7 @@ use std::fmt::Display;
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 
+use crate::document::PoseDocument;
 use crate::geometry::{Pose, Size};
 use crate::graph::PoseSource;
 
@@ -146,35 +147,6 @@ fn brief(value: &Value) -> String {
     }
 }
 
-/// A pose in JSON.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct PoseJson {
-    /// (x, y, z) in metres.
-    pub position: [f64; 3],
-    /// Unit quaternion.
-    pub orientation: QuaternionJson,
-}
-
-/// A unit quaternion in JSON.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct QuaternionJson {
-    /// Scalar part.
-    pub w: f64,
-    /// Vector part.
-    pub x: f64,
-    /// Vector part.
-    pub y: f64,
-    /// Vector part.
-    pub z: f64,
-}
-
-impl From<Pose> for PoseJson {
-    fn from(pose: Pose) -> Self {
-        let [w, x, y, z] = pose.orientation();
-        Self { position: pose.position(), orientation: QuaternionJson { w, x, y, z } }
-    }
-}
-
 /// Writes an optional value as its text.
 pub(super) fn shown<T: Display, S: Serializer>(
     value: &Option<T>,
@@ -188,7 +160,7 @@ pub(super) fn shown<T: Display, S: Serializer>(
 
 /// Writes an optional pose as `{position, orientation}`.
 pub(super) fn pose<S: Serializer>(pose: &Option<Pose>, to: S) -> Result<S::Ok, S::Error> {
-    pose.map(PoseJson::from).serialize(to)
+    pose.as_ref().map(PoseDocument::of).serialize(to)
 }
 
 /// Writes an optional size as `[w, h, d]`.

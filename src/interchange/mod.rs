@@ -22,7 +22,7 @@ pub mod spark_dsg;
 mod testing;
 pub mod virtualhome;
 
-pub use json::{JsonError, PoseJson};
+pub use json::JsonError;
 pub use report::{Import, ImportReport};
 
 use crate::graph::{GraphError, NodeId, Object, Placement, SceneGraph};

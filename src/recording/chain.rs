@@ -1,9 +1,11 @@
 //! The hash chain over the events of a log.
 //!
-//! A link is BLAKE3 over the link before it and every event message since, in order:
-//! topic, event number, log time, publish time, payload, each preceded by its length. Links are
-//! stored with every checkpoint and at the end, so a log that was edited and given new checksums
-//! still shows it. The chain does not depend on how messages were packed into chunks.
+//! A link is BLAKE3 over the link before it and every message since, in order, pictures
+//! included: lengths of topic and payload, event number, log time, publish time, topic, payload.
+//! The chain of a segment begins with what the segment says of itself (program, configuration)
+//! and ends with a seal over the last link and all counts. Links are stored with every checkpoint
+//! and at the end, so a log that was edited and given new checksums still shows it. The chain
+//! does not depend on how messages were packed into chunks.
 
 use std::fmt;
 
@@ -56,6 +58,15 @@ impl Chain {
         *self = Self::after(link);
         link
     }
+}
+
+/// The hash of some texts, each preceded by its length.
+pub(super) fn hash_of(parts: &[&[u8]]) -> Link {
+    let mut hasher = blake3::Hasher::new();
+    for part in parts {
+        hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
+    }
+    StateHash(*hasher.finalize().as_bytes())
 }
 
 #[cfg(test)]

@@ -43,6 +43,9 @@ pub enum CheckpointError {
     /// Its state is not the one it was written with.
     #[error("its state does not have the hash it states")]
     Hash,
+    /// It says that it stands elsewhere than its state does.
+    #[error("it says that it stands after another event than its state does")]
+    Head,
     /// Its state is none.
     #[error(transparent)]
     Restore(#[from] RestoreError),
@@ -85,6 +88,9 @@ impl Checkpoint {
         }
         if StateHash::of(&state).0 != head.memory_hash {
             return Err(CheckpointError::Hash);
+        }
+        if Updater::counters_from_bytes(&state)? != (head.order, head.changes, head.at) {
+            return Err(CheckpointError::Head);
         }
         Ok(Self {
             order: head.order,

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
 use super::open::{Recording, Segment};
-use crate::container::{LogError, MessageFilter};
-use crate::event::{Event, Logged, Role, SensorMessage, Topic};
+use crate::container::{LogError, MessageFilter, RawMessage};
+use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::history::EventLog;
 use crate::time::Stamp;
 use crate::wire;
@@ -31,6 +30,20 @@ pub(super) struct RawEvent<'a> {
     pub data: &'a [u8],
 }
 
+impl<'a> RawEvent<'a> {
+    /// The event that `message` is, as number `order`.
+    pub fn of(order: u64, topic: &'a Topic, message: &RawMessage<'a>) -> Self {
+        Self {
+            order,
+            topic,
+            channel: message.channel,
+            log_time: message.log_time,
+            publish_time: message.publish_time,
+            data: message.data,
+        }
+    }
+}
+
 /// Why a recording could not be walked to the end.
 #[derive(Debug, thiserror::Error)]
 #[error("{error}\n  {}", .path.display())]
@@ -39,7 +52,7 @@ pub struct WalkError {
     error: LogError,
 }
 
-type RawVisitor<'v> = dyn FnMut(&Segment, RawEvent<'_>) -> ControlFlow<()> + 'v;
+type RawVisitor<'v, 'r> = dyn FnMut(&'r Segment, RawEvent<'_>) -> ControlFlow<()> + 'v;
 
 impl Recording {
     /// Visits the events numbered `first` to `last`, in order, until the visitor breaks.
@@ -60,11 +73,11 @@ impl Recording {
     }
 
     /// As [`Recording::visit_events`], before decoding.
-    pub(super) fn walk(
-        &self,
+    pub(super) fn walk<'r>(
+        &'r self,
         walk: Walk,
         (first, last): (u64, u64),
-        visitor: &mut RawVisitor<'_>,
+        visitor: &mut RawVisitor<'_, 'r>,
     ) -> Result<(), WalkError> {
         let numbered = self.is_numbered();
         let (from_segment, from_time) = match numbered {
@@ -104,15 +117,7 @@ impl Recording {
         let mut flow = ControlFlow::Continue(());
         while let Some(message) = cursor.next_message().map_err(failed)? {
             let Some(topic) = segment.topics.get(&message.channel) else { continue };
-            let raw = RawEvent {
-                order: u64::from(message.sequence),
-                topic,
-                channel: message.channel,
-                log_time: message.log_time,
-                publish_time: message.publish_time,
-                data: message.data,
-            };
-            flow = each(raw);
+            flow = each(RawEvent::of(u64::from(message.sequence), topic, &message));
             if flow.is_break() {
                 break;
             }
@@ -125,7 +130,7 @@ impl Recording {
 
     /// A segment and a log time at or before event `order`, by the nearest checkpoint.
     fn place_before(&self, order: u64) -> (usize, u64) {
-        let before = self.checkpoints().filter(|c| c.order < order).last();
+        let before = self.checkpoints().rfind(|c| c.order < order);
         before.map_or((0, 0), |checkpoint| (checkpoint.segment, checkpoint.at.nanos()))
     }
 
@@ -184,9 +189,4 @@ pub(super) fn sensor_message(segment: &Segment, raw: RawEvent<'_>) -> SensorMess
         schema: schema.map_or(&[][..], |schema| &schema.data).into(),
         data: raw.data.into(),
     }
-}
-
-/// Whether messages of a topic come from outside.
-pub(super) fn is_input(topic: &Topic) -> bool {
-    topic.role() == Role::Input
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::chain::{GENESIS, Link};
+use super::chain::{GENESIS, Link, hash_of};
 use crate::graph::StateHash;
 use crate::updater::{Config, ConfigError};
 
@@ -23,8 +23,11 @@ pub struct Meta {
     pub config: Config,
     /// Number of its first event.
     pub first_order: u64,
-    /// Link of the chain before its first event.
+    /// Where the recording before this segment ended: its seal, or its last link if it has none.
     pub chain: Link,
+    /// Number of an event up to which the hash chain did not hold, if it was recovered from an
+    /// edited recording.
+    pub edited: Option<u64>,
     /// Event numbers after which events are known to be missing, if it was recovered from a
     /// damaged recording.
     pub gaps: Vec<u64>,
@@ -39,10 +42,33 @@ pub struct Seal {
     pub changes: u64,
     /// Number of primitives in this segment.
     pub primitives: u64,
-    /// Link of the chain after its last event.
+    /// The seal: over the last link of the chain and everything above and below.
     pub chain: Link,
     /// Hash of the graph after its last event.
     pub state_hash: StateHash,
+}
+
+/// What a seal is over.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ending<'m> {
+    pub events: u64,
+    pub changes: u64,
+    pub primitives: u64,
+    pub link: Link,
+    pub state_hash: StateHash,
+    pub meta: &'m Meta,
+}
+
+impl Ending<'_> {
+    /// The seal.
+    pub fn seal(&self) -> Seal {
+        let Self { events, changes, primitives, state_hash, meta, .. } = *self;
+        let counts = [events, changes, primitives].map(u64::to_le_bytes).concat();
+        let gaps: Vec<u8> = meta.gaps.iter().flat_map(|gap| gap.to_le_bytes()).collect();
+        let edited = meta.edited.map_or(Vec::new(), |order| order.to_le_bytes().to_vec());
+        let chain = hash_of(&[&self.link.0, &counts, &state_hash.0, &gaps, &edited]);
+        Seal { events, changes, primitives, chain, state_hash }
+    }
 }
 
 /// Why the metadata of a recording is not understood.
@@ -73,8 +99,15 @@ impl Meta {
     /// What a new recording says of itself.
     pub fn new(config: Config, first_order: u64, chain: Link) -> Self {
         let program = concat!("scenefold ", env!("CARGO_PKG_VERSION")).to_owned();
-        let (format_version, gaps) = (FORMAT_VERSION, Vec::new());
-        Self { format_version, program, config, first_order, chain, gaps }
+        let (format_version, edited, gaps) = (FORMAT_VERSION, None, Vec::new());
+        Self { format_version, program, config, first_order, chain, edited, gaps }
+    }
+
+    /// The link before the first event of the segment.
+    pub(super) fn first_link(&self) -> Link {
+        let numbers = [u64::from(self.format_version), self.first_order].map(u64::to_le_bytes);
+        let (program, config) = (self.program.as_bytes(), self.config.to_json());
+        hash_of(&[&self.chain.0, &numbers.concat(), program, config.as_bytes()])
     }
 
     pub(super) fn record(&self) -> (&'static str, Map) {
@@ -88,6 +121,9 @@ impl Meta {
         ]);
         if !gaps.is_empty() {
             map.insert("gaps".to_owned(), gaps.join(","));
+        }
+        if let Some(order) = self.edited {
+            map.insert("edited".to_owned(), order.to_string());
         }
         (META, map)
     }
@@ -104,8 +140,13 @@ impl Meta {
         let gaps = map.get("gaps").map_or(Ok(vec![]), |gaps| {
             gaps.split(',').map(|gap| gap.parse().map_err(|_| missing("gaps"))).collect()
         })?;
+        let edited = match map.contains_key("edited") {
+            true => Some(field(map, META, "edited")?),
+            false => None,
+        };
         Ok(Some(Self {
             format_version,
+            edited,
             program: map.get("program").cloned().unwrap_or_default(),
             config: Config::from_json(config)?,
             first_order: field(map, META, "first_order")?,

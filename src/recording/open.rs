@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock};
 
+use super::chain::{GENESIS, Link};
 use super::meta::{Meta, MetaError, Seal};
 use super::segment::segment_files;
 use super::sink::CLASS_KEY;
@@ -89,6 +90,13 @@ impl Recording {
         Ok(Self::over(path, vec![segment]))
     }
 
+    /// As [`Recording::scan`], of a recording in memory.
+    pub fn scan_bytes(name: &str, bytes: Vec<u8>) -> Result<Self, OpenError> {
+        let path = PathBuf::from(name);
+        let segment = Segment::open(&path, Arc::new(bytes), LogFile::scan)?;
+        Ok(Self::over(path, vec![segment]))
+    }
+
     fn open_with(path: &Path, open: OpenLog) -> Result<Self, OpenError> {
         let failed = |error| OpenError::Io { path: path.to_owned(), error };
         let files = match path.is_dir() {
@@ -98,12 +106,20 @@ impl Recording {
         if files.is_empty() {
             return Err(OpenError::NoSegments { path: path.to_owned() });
         }
-        let segments = files.iter().map(|file| {
+        let mut segments = Vec::with_capacity(files.len());
+        for file in &files {
             let source = FileSource::open(file)
                 .map_err(|error| OpenError::Io { path: file.clone(), error })?;
-            Segment::open(file, Arc::new(source), open)
-        });
-        Ok(Self::over(path.to_owned(), segments.collect::<Result<_, _>>()?))
+            let segment = Segment::open(file, Arc::new(source), open)?;
+            // One whose writer was killed before it said anything is as good as not there.
+            if files.len() == 1 || !segment.says_nothing() {
+                segments.push(segment);
+            }
+        }
+        if segments.is_empty() {
+            return Err(OpenError::NoSegments { path: path.to_owned() });
+        }
+        Ok(Self::over(path.to_owned(), segments))
     }
 
     fn over(path: PathBuf, segments: Vec<Segment>) -> Self {
@@ -129,7 +145,12 @@ impl Recording {
 
     /// What the recording says of itself, if it is one of ours.
     pub fn meta(&self) -> Option<&Meta> {
-        self.segments.first()?.meta.as_ref()
+        self.segments.iter().find_map(|segment| segment.meta.as_ref())
+    }
+
+    /// Whether no message at all was ever written.
+    pub fn is_empty(&self) -> bool {
+        self.segments.iter().all(|segment| segment.log.chunks().is_empty())
     }
 
     /// What the last segment says of its end, if it was ended.
@@ -150,7 +171,7 @@ impl Recording {
     /// Whether the files number their events themselves, as ours do; in others an event's
     /// number is its place in the order of the log.
     pub(super) fn is_numbered(&self) -> bool {
-        self.segments.iter().all(|segment| segment.meta.is_some())
+        self.segments.iter().all(Segment::is_numbered)
     }
 
     pub(super) fn report(&self, segment: &Segment, what: impl std::fmt::Display) {
@@ -200,6 +221,21 @@ impl Segment {
         };
         segment.sort_channels();
         Ok(segment)
+    }
+
+    fn says_nothing(&self) -> bool {
+        self.meta.is_none() && self.log.chunks().is_empty() && !self.log.is_finished()
+    }
+
+    /// The link of the chain before the first event.
+    pub fn first_link(&self) -> Link {
+        self.meta.as_ref().map_or(GENESIS, Meta::first_link)
+    }
+
+    /// Whether the events are numbered by the file, as ours are even if its metadata are lost.
+    pub fn is_numbered(&self) -> bool {
+        let ours = |channel: &crate::container::Channel| channel.metadata.contains_key(CLASS_KEY);
+        self.meta.is_some() || self.log.channels().values().any(ours)
     }
 
     fn sort_channels(&mut self) {

@@ -21,6 +21,11 @@ pub struct Point {
 impl Point {
     const END: Self = Self { last_order: u64::MAX, last_time: Stamp::MAX, moment: None };
 
+    /// Whether it is after everything.
+    pub fn is_end(&self) -> bool {
+        *self == Self::END
+    }
+
     fn order(last_order: u64) -> Self {
         Self { last_order, ..Self::END }
     }
@@ -83,7 +88,7 @@ impl Recording {
 
     /// Number of the last event of the update that recorded change `seq`.
     fn end_of_change(&self, seq: u64) -> Result<u64, PointError> {
-        let before = self.checkpoints().filter(|c| c.changes < seq).last();
+        let before = self.checkpoints().rfind(|c| c.changes < seq);
         let first = before.map_or(1, |checkpoint| checkpoint.order + 1);
         let (mut last_seq, mut end) = (before.map_or(0, |checkpoint| checkpoint.changes), None);
         let mut look = |logged: &crate::event::Logged| match &logged.event {

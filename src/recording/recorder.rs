@@ -57,6 +57,12 @@ pub enum RecordError {
         /// What it said.
         error: io::Error,
     },
+    /// Recordings are never overwritten.
+    #[error("there is something already; choose another name, or remove it first\n  {}", .path.display())]
+    Exists {
+        /// Where.
+        path: PathBuf,
+    },
     /// The container refused.
     #[error(transparent)]
     Write(#[from] WriteError),
@@ -89,6 +95,17 @@ pub enum RecordError {
     /// A topic of our own without a schema; a bug.
     #[error("a topic has no schema")]
     NoSchema,
+}
+
+impl RecordError {
+    /// What the file system said of `path`, and how to mend it.
+    pub fn io(path: &Path, error: io::Error) -> Self {
+        let path = path.to_owned();
+        match error.kind() {
+            io::ErrorKind::AlreadyExists => Self::Exists { path },
+            _ => Self::Io { path, error },
+        }
+    }
 }
 
 /// What one update came to.
@@ -209,15 +226,11 @@ fn file_for(path: &Path) -> Result<PathBuf, RecordError> {
     std::fs::create_dir_all(path).map_err(|error| io_error(path, error))?;
     let segments = segment_files(path).map_err(|error| io_error(path, error))?;
     if let Some(first) = segments.into_iter().next() {
-        let error = io::Error::new(
-            io::ErrorKind::AlreadyExists,
-            "there is a recording already: go on with it, or choose another folder",
-        );
-        return Err(io_error(&first, error));
+        return Err(RecordError::Exists { path: first });
     }
     next_segment(path).map_err(|error| io_error(path, error))
 }
 
 fn io_error(path: &Path, error: io::Error) -> RecordError {
-    RecordError::Io { path: path.to_owned(), error }
+    RecordError::io(path, error)
 }

@@ -1,16 +1,15 @@
 //! Saving what is intact of a damaged recording into a clean one.
 
 use std::collections::BTreeMap;
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::path::Path;
 
 use super::chain::{Chain, GENESIS};
 use super::checkpoint::Checkpoint;
 use super::events::{RawEvent, decode};
-use super::meta::{Meta, Seal};
+use super::meta::{Ending, Meta, Seal};
 use super::open::{Recording, Segment};
 use super::recorder::RecordError;
-use super::segment::create_new;
 use super::sink::{CLASS_KEY, class_of};
 use crate::change::World;
 use crate::container::{
@@ -35,22 +34,24 @@ pub struct Recovered {
     pub messages: u64,
     /// Stretches of events that are missing.
     pub events: Vec<LostEvents>,
+    /// Number of an event up to which the hash chain does not hold: the recording was edited.
+    /// The recovered one says so too.
+    pub edited: Option<u64>,
     /// What was damaged, a line each, with file and bytes.
     pub damage: Vec<String>,
 }
 
-/// Copies every intact message of the recording at `path` to a new file `out`, in order, and
+/// Copies every intact message of a recording, best one opened with [`Recording::scan`], to a new file `out`, in order, and
 /// ends it properly. Messages keep their times, numbers and bytes; checkpoints are given the
 /// chain of the new file. `progress` is told the messages copied so far.
 pub fn recover(
-    path: &Path,
+    recording: &Recording,
     out: &Path,
     progress: &mut dyn FnMut(u64),
 ) -> Result<Recovered, RecordError> {
-    let recording = Recording::scan(path)?;
-    let io = |error| RecordError::Io { path: out.to_owned(), error };
-    let file = create_new(out).map_err(io)?;
-    let mut copy = Copy::new(&recording, file)?;
+    let io = |error| RecordError::io(out, error);
+    let file = OpenOptions::new().write(true).create_new(true).open(out).map_err(io)?;
+    let mut copy = Copy::new(recording, file)?;
     for segment in &recording.segments {
         copy.segment(segment, progress)?;
     }
@@ -65,6 +66,9 @@ struct Copy<'r> {
     meta: Option<Meta>,
     channels: BTreeMap<(String, u16), ChannelHandle>,
     chain: Chain,
+    /// The chain as the original has it, as long as nothing of it is lost.
+    original: Chain,
+    comparable: bool,
     world: World,
     order: u64,
     changes: u64,
@@ -76,19 +80,25 @@ struct Copy<'r> {
 impl<'r> Copy<'r> {
     fn new(recording: &'r Recording, file: File) -> Result<Self, RecordError> {
         let mut writer = LogWriter::new(file, LogOptions::default())?;
-        let meta = recording.segments.iter().find_map(|segment| segment.meta.clone());
-        let meta = meta.or_else(|| made_up(recording));
+        let known = || recording.segments.iter().filter_map(|segment| segment.meta.as_ref());
+        let meta = known().next().cloned().or_else(|| made_up(recording)).map(|first| {
+            let edited = known().find_map(|meta| meta.edited);
+            let gaps = known().flat_map(|meta| meta.gaps.clone()).collect();
+            Meta { edited, gaps, ..first }
+        });
         if let Some(meta) = &meta {
             let (name, map) = meta.record();
             writer.write_metadata(name, map)?;
         }
         let first = meta.as_ref().map_or(1, |meta| meta.first_order);
-        let chain = Chain::after(meta.as_ref().map_or(GENESIS, |meta| meta.chain));
+        let chain = Chain::after(meta.as_ref().map_or(GENESIS, Meta::first_link));
         Ok(Self {
             recording,
             writer,
             meta,
             channels: BTreeMap::new(),
+            original: chain.clone(),
+            comparable: true,
             chain,
             world: World::default(),
             order: first - 1,
@@ -110,6 +120,8 @@ impl<'r> Copy<'r> {
                 self.writer.write_metadata(&record.name, record.metadata.clone())?;
             }
         }
+        self.original = Chain::after(segment.first_link());
+        self.comparable = true;
         let mut cursor = segment.log.messages(MessageFilter::default());
         loop {
             match cursor.next_message() {
@@ -127,6 +139,7 @@ impl<'r> Copy<'r> {
         for damage in cursor.damage().items() {
             self.recording.report_damage(segment, damage);
         }
+        self.compare_seal(segment, cursor.damage().is_empty());
         Ok(())
     }
 
@@ -151,15 +164,7 @@ impl<'r> Copy<'r> {
     /// Follows the fold and the chain; `false` if the event is no use and is left out.
     fn event(&mut self, segment: &Segment, topic: &Topic, message: &RawMessage<'_>) -> bool {
         let order = u64::from(message.sequence);
-        let raw = RawEvent {
-            order,
-            topic,
-            channel: message.channel,
-            log_time: message.log_time,
-            publish_time: message.publish_time,
-            data: message.data,
-        };
-        let logged = match decode(segment, raw) {
+        let logged = match decode(segment, RawEvent::of(order, topic, message)) {
             Ok(logged) if order > self.order => logged,
             Ok(_) => {
                 let what = format_args!("event #{order} stands after #{}: left out", self.order);
@@ -172,13 +177,12 @@ impl<'r> Copy<'r> {
             }
         };
         if order > self.order + 1 {
-            self.lost.push(LostEvents { first: self.order + 1, last: Some(order - 1) });
+            self.lose(order - 1);
         }
         self.order = order;
-        if segment.events.contains(&message.channel) {
-            let (at, published) = (message.log_time, message.publish_time);
-            self.chain.add(&topic.name(), order, at, published, message.data);
-        }
+        let (at, published) = (message.log_time, message.publish_time);
+        self.chain.add(&topic.name(), order, at, published, message.data);
+        self.original.add(&topic.name(), order, at, published, message.data);
         match logged.event {
             Event::InitialGraph(graph) => self.world = World::from_graph(graph),
             Event::Change(record) => self.changes = record.seq,
@@ -207,13 +211,14 @@ impl<'r> Copy<'r> {
         };
         if checkpoint.order > self.order {
             // What led up to it is lost, but not the state it led to.
-            self.lost.push(LostEvents { first: self.order + 1, last: Some(checkpoint.order) });
+            self.lose(checkpoint.order);
             self.order = checkpoint.order;
             self.changes = checkpoint.changes;
         }
         if !self.lost.is_empty() {
             self.world = world;
         }
+        self.compare_link(&checkpoint);
         let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode();
         let handle = self.channel(segment, message)?;
         let (sequence, at) = (message.sequence, message.log_time);
@@ -260,32 +265,73 @@ impl<'r> Copy<'r> {
             meta.gaps.extend(found.map(|lost| lost.first - 1));
             meta.gaps.sort_unstable();
             meta.gaps.dedup();
-            if !meta.gaps.is_empty() {
-                let (name, map) = meta.record();
-                self.writer.write_metadata(name, map)?;
-            }
-            let seal = Seal {
+            // The last one of several counts.
+            let (name, map) = meta.record();
+            self.writer.write_metadata(name, map)?;
+            let ending = Ending {
                 events: self.order,
                 changes: self.changes,
                 primitives: self.primitives,
-                chain: self.chain.link(),
+                link: self.chain.link(),
                 state_hash: self.world.graph().hash(),
+                meta,
             };
+            let seal = ending.seal();
             let (name, map) = seal.record();
             self.writer.write_metadata(name, map)?;
         }
         self.writer.finish()?;
         let damage = self.recording.trouble();
-        Ok(Recovered { messages: self.messages, events: self.lost, damage })
+        let edited = self.meta.and_then(|meta| meta.edited);
+        Ok(Recovered { messages: self.messages, events: self.lost, edited, damage })
+    }
+
+    /// The events after the last one, up to `last`, are not there.
+    fn lose(&mut self, last: u64) {
+        let known = self.meta.as_ref().is_some_and(|meta| meta.gaps.contains(&self.order));
+        self.comparable &= known;
+        self.lost.push(LostEvents { first: self.order + 1, last: Some(last) });
+    }
+
+    /// A link that does not hold though nothing is lost tells of an edit.
+    fn compare_link(&mut self, checkpoint: &Checkpoint) {
+        let held = self.original.close() == checkpoint.chain;
+        if !held {
+            self.original = Chain::after(checkpoint.chain);
+        }
+        // What a damaged checkpoint would have told is unknown.
+        let damaged = !self.recording.trouble().is_empty();
+        if !held && self.comparable && !damaged {
+            self.note_edit();
+        }
+        self.comparable = true;
+    }
+
+    fn compare_seal(&mut self, segment: &Segment, whole: bool) {
+        let (Some(seal), Some(meta)) = (&segment.seal, &segment.meta) else { return };
+        let damaged = !self.recording.trouble().is_empty();
+        if seal.events != self.order || !whole || !self.comparable || damaged {
+            return;
+        }
+        let (link, primitives) = (self.original.link(), seal.primitives);
+        let Seal { events, changes, state_hash, .. } = *seal;
+        let ending = Ending { events, changes, primitives, link, state_hash, meta };
+        if ending.seal() != *seal {
+            self.note_edit();
+        }
+    }
+
+    fn note_edit(&mut self) {
+        let order = self.order;
+        if let Some(meta) = &mut self.meta {
+            meta.edited.get_or_insert(order);
+        }
     }
 }
 
 /// What a recording of ours says of itself if that is lost; `None` for those of other programs.
 fn made_up(recording: &Recording) -> Option<Meta> {
-    let ours = |segment: &&Segment| {
-        segment.log.channels().values().any(|channel| channel.metadata.contains_key(CLASS_KEY))
-    };
-    let segment = recording.segments.iter().find(ours)?;
+    let segment = recording.segments.iter().find(|segment| segment.is_numbered())?;
     let what = "its metadata are lost: the default configuration is taken for the recorded one";
     recording.report(segment, what);
     Some(Meta::default())

@@ -58,12 +58,15 @@ pub enum ReprocessError<E> {
     Sink(E),
 }
 
+/// Takes each recorded input and what follows from it now, itself first.
+pub type UpdateSink<'s, E> = dyn FnMut(&Logged, &[Logged]) -> Result<(), E> + 's;
+
 /// Feeds the recorded inputs to a new updater under `config`, compares what it derives with what
 /// was recorded, and hands each update to `sink`, for example to record it anew.
 pub fn reprocess<E>(
     recording: &Recording,
     config: Config,
-    sink: &mut dyn FnMut(&Logged, &[Logged]) -> Result<(), E>,
+    sink: &mut UpdateSink<'_, E>,
 ) -> Result<Reprocessed, ReprocessError<E>> {
     let mut again = Again::new(Updater::new(config));
     let mut failure = None;
@@ -118,7 +121,7 @@ impl Again {
     pub fn take<E>(
         &mut self,
         logged: &Logged,
-        sink: &mut dyn FnMut(&Logged, &[Logged]) -> Result<(), E>,
+        sink: &mut UpdateSink<'_, E>,
     ) -> Result<(), ReprocessError<E>> {
         if !logged.event.is_input() {
             self.recorded.push(logged.event.clone());

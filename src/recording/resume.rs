@@ -3,9 +3,9 @@
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-use super::chain::{Chain, Link};
-use super::events::{Walk, decode};
-use super::open::Recording;
+use super::chain::{Chain, GENESIS, Link};
+use super::events::{RawEvent, Walk, decode};
+use super::open::{Recording, Segment};
 use super::reprocess::Again;
 use crate::event::Logged;
 use crate::updater::{Config, Updater};
@@ -43,54 +43,41 @@ impl Recording {
     pub(super) fn resume(&self) -> Result<End, ResumeError> {
         let damaged = |what: String| ResumeError::Damaged(what);
         let config = self.meta().map_or_else(Config::default, |meta| meta.config.clone());
-        let usable = self.checkpoints().rev().find_map(|at| self.checkpoint(at).ok());
-        let (updater, chain) = match usable {
-            Some(checkpoint) => {
-                let chain = Chain::after(checkpoint.chain);
-                let updater = checkpoint.updater(config);
-                (updater.map_err(|error| damaged(error.to_string()))?, chain)
-            }
-            None => {
-                let first = self.meta().ok_or_else(|| damaged("it is not ours".to_owned()))?.chain;
-                (Updater::new(config), Chain::after(first))
-            }
+        if self.meta().is_none() && self.is_empty() {
+            // Its writer was killed before it said anything.
+            return Ok(End { updater: Updater::new(config), chain: GENESIS, missing: Vec::new() });
+        }
+        let usable =
+            self.checkpoints().rev().find_map(|at| Some((at.segment, self.checkpoint(at).ok()?)));
+        if let Some((segment, checkpoint)) = usable {
+            let chain = Chain::after(checkpoint.chain);
+            let updater = checkpoint.updater(config).map_err(|error| damaged(error.to_string()))?;
+            return self.run_on(updater, chain, segment);
+        }
+        let Some(first) = self.segments.first().filter(|segment| segment.meta.is_some()) else {
+            return Err(damaged("it is not one of ours".to_owned()));
         };
-        self.run_on(updater, chain)
+        self.run_on(Updater::new(config), Chain::after(first.first_link()), 0)
     }
 
-    fn run_on(&self, updater: Updater, mut chain: Chain) -> Result<End, ResumeError> {
+    /// Feeds the events after `updater` to it; `chain` stands in segment number `segment`.
+    fn run_on(&self, updater: Updater, chain: Chain, segment: usize) -> Result<End, ResumeError> {
         let first = updater.order() + 1;
-        let mut expected = first;
-        let mut again = Again::new(updater);
-        let mut problem = None;
-        let mut nowhere = |_: &_, _: &[_]| Ok::<_, Infallible>(());
-        let mut each = |segment: &super::open::Segment, raw: super::events::RawEvent<'_>| {
-            if raw.order != expected {
-                problem = Some(format!("events from #{expected} are missing"));
-                return ControlFlow::Break(());
-            }
-            expected += 1;
-            if segment.events.contains(&raw.channel) {
-                let (at, published) = (raw.log_time, raw.publish_time);
-                chain.add(&raw.topic.name(), raw.order, at, published, raw.data);
-            }
-            let taken =
-                decode(segment, raw).map_err(|error| error.to_string()).and_then(|logged| {
-                    again.take(&logged, &mut nowhere).map_err(|error| error.to_string())
-                });
-            match taken {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    problem = Some(error);
-                    ControlFlow::Break(())
-                }
-            }
+        let mut run = Run {
+            again: Again::new(updater),
+            chain,
+            segment: &self.segments[segment],
+            expected: first,
+            problem: None,
         };
-        let walked = self.walk(Walk::Everything, (first, u64::MAX), &mut each);
+        let walked = self
+            .walk(Walk::Everything, (first, u64::MAX), &mut |segment, raw| run.take(segment, raw));
         walked.map_err(|error| ResumeError::Damaged(error.to_string()))?;
-        if let Some(what) = problem {
+        if let Some(what) = run.problem {
             return Err(ResumeError::Damaged(what));
         }
+        let chain = self.end_link(&run);
+        let mut again = run.again;
         let missing = again.missing_tail();
         if !missing.is_empty() {
             again.forget_last();
@@ -99,6 +86,53 @@ impl Recording {
         if result.different > 0 {
             return Err(ResumeError::Different { count: result.different });
         }
-        Ok(End { updater: result.updater, chain: chain.link(), missing })
+        Ok(End { updater: result.updater, chain, missing })
+    }
+
+    /// Where the next segment goes on: at the seal of the last one, or at its last link.
+    fn end_link(&self, run: &Run<'_>) -> Link {
+        let Some(last) = self.segments.last() else { return run.chain.link() };
+        match &last.seal {
+            Some(seal) => seal.chain,
+            None if std::ptr::eq(last, run.segment) => run.chain.link(),
+            // The last segment ended before its first event.
+            None => Chain::after(last.first_link()).link(),
+        }
+    }
+}
+
+/// The end of a recording being run through the detectors again.
+struct Run<'r> {
+    again: Again,
+    chain: Chain,
+    segment: &'r Segment,
+    expected: u64,
+    problem: Option<String>,
+}
+
+impl<'r> Run<'r> {
+    fn take(&mut self, segment: &'r Segment, raw: RawEvent<'_>) -> ControlFlow<()> {
+        if raw.order != self.expected {
+            self.problem = Some(format!("events from #{} are missing", self.expected));
+            return ControlFlow::Break(());
+        }
+        self.expected += 1;
+        if !std::ptr::eq(segment, self.segment) {
+            self.segment = segment;
+            self.chain = Chain::after(segment.first_link());
+        }
+        let (at, published) = (raw.log_time, raw.publish_time);
+        self.chain.add(&raw.topic.name(), raw.order, at, published, raw.data);
+        let mut nowhere = |_: &_, _: &[_]| Ok::<_, Infallible>(());
+        let taken = decode(segment, raw)
+            .map_err(|error| error.to_string())
+            .and_then(|logged| self.again.take(&logged, &mut nowhere).map_err(|e| e.to_string()));
+        match taken {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                self.problem = Some(error);
+                ControlFlow::Break(())
+            }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The files of a recording: one, or a folder of segments in the order of their names.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -29,15 +29,4 @@ pub(super) fn next_segment(folder: &Path) -> io::Result<PathBuf> {
     };
     let last = segment_files(folder)?.iter().filter_map(number).max().unwrap_or(0);
     Ok(folder.join(format!("{PREFIX}{:06}{SUFFIX}", last + 1)))
-}
-
-/// Creates a file; one that is there is never touched.
-pub(super) fn create_new(path: &Path) -> io::Result<File> {
-    OpenOptions::new().write(true).create_new(true).open(path).map_err(|error| match error.kind() {
-        io::ErrorKind::AlreadyExists => io::Error::new(
-            io::ErrorKind::AlreadyExists,
-            "the file exists already and is never overwritten: choose another name",
-        ),
-        _ => error,
-    })
 }

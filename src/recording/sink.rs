@@ -4,16 +4,15 @@
 //! state after them.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::fs::File;
+use std::fs::{File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use super::chain::{Chain, Link};
+use super::chain::Chain;
 use super::checkpoint::Checkpoint;
-use super::meta::{Meta, Seal};
+use super::meta::{Ending, Meta, Seal};
 use super::recorder::{RecordError, RecorderOptions, SyncPolicy};
-use super::segment::create_new;
 use crate::container::{ChannelHandle, ChannelSpec, ChunkClass, LogOptions, LogWriter, SchemaSpec};
 use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::graph::StateHash;
@@ -30,6 +29,7 @@ pub(super) struct Sink {
     channels: BTreeMap<Topic, ChannelHandle>,
     sensors: BTreeMap<SensorChannel, (ChannelHandle, ChunkClass)>,
     chain: Chain,
+    meta: Meta,
     payload: Vec<u8>,
     /// Messages accepted by the writer up to which which event is complete.
     pending: VecDeque<(u64, u64)>,
@@ -54,15 +54,15 @@ impl Sink {
         meta: &Meta,
         options: &RecorderOptions,
     ) -> Result<Self, RecordError> {
-        let failed = |error: io::Error| RecordError::Io { path: path.to_owned(), error };
-        let file = create_new(path).map_err(failed)?;
+        let failed = |error: io::Error| RecordError::io(path, error);
+        let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
         if options.sync != SyncPolicy::Never {
             sync_folder(path).map_err(failed)?;
         }
         // Chunks are closed here, between updates, so that a torn file never shows half of one.
         let event_chunk_bytes = usize::MAX;
         let zstd_level = options.zstd_level;
-        let log_options = LogOptions { zstd_level, event_chunk_bytes, ..LogOptions::default() };
+        let log_options = LogOptions { event_chunk_bytes, zstd_level, ..LogOptions::default() };
         let mut writer = LogWriter::new(file, log_options)?;
         let (name, map) = meta.record();
         writer.write_metadata(name, map)?;
@@ -72,7 +72,8 @@ impl Sink {
             sync: options.sync,
             channels: BTreeMap::new(),
             sensors: BTreeMap::new(),
-            chain: Chain::after(meta.chain),
+            chain: Chain::after(meta.first_link()),
+            meta: meta.clone(),
             payload: Vec::new(),
             pending: VecDeque::new(),
             open_bytes: 0,
@@ -127,11 +128,8 @@ impl Sink {
         let sequence = u32::try_from(order).map_err(|_| RecordError::Full { order })?;
         let (at, published) = (logged.at.nanos(), logged.published.nanos());
         self.writer.write(handle, sequence, at, published, data)?;
-        if class == ChunkClass::Event {
-            self.chain.add(&logged.event.topic().name(), order, at, published, data);
-            return Ok(data.len() as u64 + 31);
-        }
-        Ok(0)
+        self.chain.add(&logged.event.topic().name(), order, at, published, data);
+        Ok(if class == ChunkClass::Event { data.len() as u64 + 31 } else { 0 })
     }
 
     /// Writes a checkpoint of the state after the last event, and closes the link of the chain.
@@ -171,9 +169,8 @@ impl Sink {
         state_hash: StateHash,
     ) -> Result<Seal, RecordError> {
         self.flush()?;
-        let chain: Link = self.chain.link();
-        let primitives = self.primitives;
-        let seal = Seal { events, changes, primitives, chain, state_hash };
+        let (link, primitives, meta) = (self.chain.link(), self.primitives, &self.meta);
+        let seal = Ending { events, changes, primitives, link, state_hash, meta }.seal();
         let (name, map) = seal.record();
         self.writer.write_metadata(name, map)?;
         let file = self.writer.finish()?;

@@ -72,6 +72,7 @@ impl Recording {
                     break;
                 }
             }
+            fold.check_end();
         } else {
             fold.walk()?;
         }
@@ -137,13 +138,16 @@ struct Fold<'r> {
     segment: usize,
     offset: u64,
     uncertain: Option<String>,
+    /// Some event numbers are those of pictures, which the fold passes over.
+    has_sensors: bool,
 }
 
 impl<'r> Fold<'r> {
     fn new(recording: &'r Recording, point: Point) -> Self {
         let (world, time) = (World::default(), recording.start().unwrap_or_default());
         let (order, segment, offset, uncertain) = (0, 0, 0, None);
-        Self { recording, point, world, order, time, segment, offset, uncertain }
+        let has_sensors = recording.segments.iter().any(|segment| !segment.sensors.is_empty());
+        Self { recording, point, world, order, time, segment, offset, uncertain, has_sensors }
     }
 
     /// Starts from the last checkpoint before the point that can be used.
@@ -243,18 +247,43 @@ impl<'r> Fold<'r> {
                 return Flow::Done;
             }
             if item.order > self.order {
+                self.check_next(segment, item.order);
                 self.apply(segment, item);
             }
         }
         Flow::More
     }
 
+    /// Where there is nothing but events, their numbers go up by one.
+    fn check_next(&mut self, segment: &Segment, order: u64) {
+        let expected = self.order + 1;
+        if order != expected && !self.has_sensors {
+            let what = format!("events #{expected} to #{} are missing", order - 1);
+            self.doubt(segment, what);
+        }
+    }
+
+    /// A recording that was ended tells how many events there are.
+    fn check_end(&mut self) {
+        let Some(segment) = self.recording.segments.last() else { return };
+        let Some(seal) = segment.seal.filter(|_| self.point.is_end()) else { return };
+        let last_may_be_a_picture = self.has_sensors;
+        if self.order < seal.events && !last_may_be_a_picture {
+            let (order, events) = (self.order, seal.events);
+            let what = format!("events #{} to #{events} are missing", order + 1);
+            self.doubt(segment, what);
+        }
+    }
+
+    fn doubt(&mut self, segment: &Segment, what: String) {
+        self.recording.report(segment, &what);
+        self.uncertain.get_or_insert(what);
+    }
+
     fn apply(&mut self, segment: &Segment, item: Item) {
         (self.order, self.time) = (item.order, item.at);
         if let Err(why) = item.content.and_then(|content| content.apply(&mut self.world)) {
-            let what = format!("event #{}: {why}", item.order);
-            self.recording.report(segment, &what);
-            self.uncertain.get_or_insert(what);
+            self.doubt(segment, format!("event #{}: {why}", item.order));
         }
     }
 

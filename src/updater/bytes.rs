@@ -50,6 +50,11 @@ impl Updater {
         Ok(Self { config, world, action, order, changes, at })
     }
 
+    /// Number of the last event, number of the last change and log time of the last event.
+    pub fn counters_from_bytes(bytes: &[u8]) -> Result<(u64, u64, Stamp), RestoreError> {
+        read_counters(&mut Reader(bytes))
+    }
+
     /// Only the world of these bytes; the memory of detectors is not needed to replay.
     pub fn world_from_bytes(bytes: &[u8]) -> Result<World, RestoreError> {
         let mut input = Reader(bytes);

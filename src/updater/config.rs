@@ -38,7 +38,7 @@ pub enum ConfigError {
 }
 
 /// ln 3 / 12 h.
-const HALF_LIFE_12_H: f64 = 2.5430840015465504e-05;
+const HALF_LIFE_12_H: f64 = 2.543_084_001_546_550_4e-5;
 
 impl Default for CheckedSize {
     fn default() -> Self {

@@ -14,7 +14,7 @@ pub use bytes::RestoreError;
 pub use config::{Config, ConfigError};
 
 use crate::change::World;
-use crate::event::{Event, Logged};
+use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
@@ -43,6 +43,9 @@ pub enum UpdateError {
         /// Its topic.
         topic: String,
     },
+    /// It could not be read back.
+    #[error(transparent)]
+    TooLong(#[from] TooLong),
     /// A graph to start from came after the start.
     #[error("the initial graph must be the first event, but {events} events came before it")]
     InitialGraphTooLate {
@@ -121,6 +124,7 @@ impl Updater {
         if !input.is_input() {
             return Err(UpdateError::NotAnInput { topic: input.topic().name().into_owned() });
         }
+        input.check_length()?;
         match input {
             Event::InitialGraph(_) if self.order > 0 => {
                 Err(UpdateError::InitialGraphTooLate { events: self.order })

@@ -10,7 +10,7 @@ use std::fmt::Display;
 use super::WireError;
 
 /// Longest text of a field, in bytes, unless it says otherwise.
-pub(super) const MAX_TEXT: usize = 64 * 1024;
+pub(super) const MAX_TEXT: usize = crate::event::MAX_NAME;
 /// Longest text that is derived from others: it may quote the longest input there is, with every
 /// character escaped, and must be readable all the same.
 pub(super) const MAX_DERIVED_TEXT: usize = 8 << 20;

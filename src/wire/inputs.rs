@@ -8,7 +8,7 @@ use super::{WireError, proto};
 use crate::event::{Interpretation, Status, Task, TaskStatus, Utterance};
 
 /// Longest utterance or instruction, in bytes.
-pub const MAX_UTTERANCE: usize = 1 << 20;
+pub const MAX_UTTERANCE: usize = crate::event::MAX_SENTENCE;
 
 pub(super) fn utterance(utterance: &Utterance) -> proto::Utterance {
     proto::Utterance { speaker: utterance.speaker.clone(), text: utterance.text.clone() }

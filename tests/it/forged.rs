@@ -294,7 +294,7 @@ fn a_chain_that_was_noted_elsewhere_tells_a_recording_that_was_made_anew() {
     recorder.finish().unwrap();
     let verified = verify(&other, &mut |_| ()).unwrap();
     assert_eq!(verified.status, Status::Intact);
-    assert_ne!(verified.chain, seal.chain);
+    assert_ne!(verified.chain, Some(seal.chain));
     for (path, code) in [(&genuine, 0), (&other, 1)] {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_scenefold"));
         command.arg("verify").arg(path).args(["--chain", &seal.chain.to_string()]);

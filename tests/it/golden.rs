@@ -91,7 +91,7 @@ fn they_verify_as_they_did() {
             golden.name,
             verified.status.as_str(),
             verified.hash,
-            verified.chain
+            verified.chain.unwrap()
         );
         for finding in verified.findings {
             text += &format!("  {}: {}\n", finding.status.as_str(), finding.what);

@@ -153,7 +153,7 @@ fn check_integrity(folder: &Path, scratch: &Path) -> StateHash {
     assert!(fine, "{:?} {:?}", verified.status, verified.findings);
     let saved = scratch.join("saved.mcap");
     let _ = fs::remove_file(&saved);
-    recover(folder, &saved, &mut |_| ()).unwrap();
+    recover(&Recording::scan(folder).unwrap(), &saved, &mut |_| ()).unwrap();
     let intact = verify(&saved, &mut |_| ()).unwrap();
     assert_eq!(intact.status, Status::Intact, "{:?}", intact.findings);
     assert_eq!((intact.hash, intact.events), (verified.hash, verified.events));

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use super::labels::{NO_LABEL, is_meaningful};
+use crate::document::PoseDocument;
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, Layer, NodeId, Object, Region, SceneGraph};
-use crate::interchange::PoseJson;
 
 const OBJECTS: u64 = 2;
 const ROOMS: u64 = 4;
@@ -68,7 +68,7 @@ fn object_node(id: NodeId, object: &Object, classes: &BTreeMap<&Label, u64>) -> 
     attributes["last_update_time_ns"] = json!(object.last_observed.nanos());
     attributes["mesh_connections"] = json!([]);
     attributes["registered"] = json!(false);
-    attributes["world_R_object"] = json!(PoseJson::from(object.pose).orientation);
+    attributes["world_R_object"] = json!(PoseDocument::of(&object.pose).orientation);
     node(id, OBJECTS, &attributes)
 }
 
@@ -128,7 +128,7 @@ fn bounding_box(extent: Option<(Pose, Size)>) -> Value {
         "type": kind,
         "dimensions": sides,
         "world_P_center": pose.position(),
-        "world_R_center": PoseJson::from(pose).orientation,
+        "world_R_center": PoseDocument::of(&pose).orientation,
     })
 }
 

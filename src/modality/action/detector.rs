@@ -1,12 +1,12 @@
 //! [`ActionDetector`]: from task statuses to claims.
 
-use super::memory::{self, InHand, TaskMemory, Tasks};
+use super::memory::{self, Grasp, TaskMemory, Tasks};
 use crate::bytes::{Reader, Writer};
 use crate::change::{
-    Action, Claim, EvidenceRef, Modality, NodeRef, Occurred, Rejection, locate, locate_room,
+    Action, Claim, EvidenceRef, Modality, NodeRef, Occurred, Rejection, World, locate, locate_room,
 };
 use crate::event::{Interpretation, Status, Task, TaskStatus};
-use crate::graph::{CanonicalError, NodeId};
+use crate::graph::{CanonicalError, NodeId, Object};
 use crate::modality::Desk;
 use crate::modality::desk::{evidence, node_ref};
 
@@ -43,7 +43,7 @@ impl ActionDetector {
         };
         let memory = report.memory;
         // A task that nobody announced is remembered only while its hand is full.
-        let idle = memory.announced.is_none() && memory.in_hand == InHand::Nothing;
+        let idle = memory.announced.is_none() && memory.in_hand.is_empty();
         if !over && !idle {
             self.tasks.insert(status.task_id.clone(), memory);
         }
@@ -80,91 +80,118 @@ impl Report<'_, '_> {
             self.desk.reject(claim, rejection);
             return false;
         }
-        self.memory.in_hand = match self.desk.claim(claim) {
-            Ok(NodeRef { id: Some(id), .. }) => InHand::Known(id),
-            Err(Rejection::Ambiguous { candidates, .. }) => InHand::Ambiguous(candidates),
-            Err(Rejection::AlreadyHeld { object } | Rejection::AlreadyAbsent { object }) => {
-                object.id.map_or(InHand::Nothing, InHand::Known)
-            }
-            Ok(_) | Err(_) => InHand::Unknown(object),
+        let grasp = match self.desk.claim(claim) {
+            Ok(NodeRef { id: Some(id), .. }) => Grasp::Known(id),
+            Err(Rejection::Ambiguous { candidates, .. }) => Grasp::Ambiguous(candidates),
+            Err(
+                Rejection::AlreadyHeld { object: NodeRef { id: Some(id), .. } }
+                | Rejection::AlreadyAbsent { object: NodeRef { id: Some(id), .. } },
+            ) => Grasp::Known(id),
+            Err(Rejection::Contradiction { .. }) => return false,
+            Ok(_) | Err(_) => Grasp::Unknown(object),
         };
+        if !self.memory.in_hand.contains(&grasp) {
+            self.memory.in_hand.push(grasp);
+        }
         false
     }
 
     fn placed(&mut self) -> bool {
-        let (action, object) = match &self.memory.in_hand {
-            InHand::Known(id) if !self.names_another(*id) => {
-                (Action::Moved, node_ref(self.desk.world(), *id))
-            }
-            InHand::Unknown(object) => (self.moved_or_added(object), object.clone()),
-            InHand::Known(_) | InHand::Nothing => {
-                let object = self.object();
-                (self.moved_or_added(&object), object)
-            }
-            InHand::Ambiguous(candidates) => {
+        let grasp = self.grasp();
+        let (action, object) = match grasp.map(|n| &self.memory.in_hand[n]) {
+            Some(Grasp::Known(id)) => (Action::Moved, node_ref(self.desk.world(), *id)),
+            Some(Grasp::Unknown(object)) => (self.moved_or_added(object), object.clone()),
+            Some(Grasp::Ambiguous(candidates)) => {
                 let candidates = candidates.clone();
                 let claim = self.placing(Action::Moved, self.object());
                 let task = self.status.task_id.clone();
                 self.desk.reject(claim, Rejection::PlacedAmbiguous { task, candidates });
-                self.memory.in_hand = InHand::Nothing;
+                self.let_go(grasp);
                 return false;
             }
+            // Never picked, as far as is known: the robot's own hands are believed.
+            None => (self.moved_or_added(&self.object()), self.object()),
         };
         let claim = self.placing(action, object.clone());
         if object.is_empty() {
             let rejection = self.names_nothing();
             self.desk.reject(claim, rejection);
-        } else if let Ok(placed) = self.desk.claim(claim) {
-            // Something else may have been placed than what is in the hand.
-            if !matches!(self.memory.in_hand, InHand::Known(id) if placed.id != Some(id)) {
-                self.memory.in_hand = InHand::Nothing;
-            }
+        } else if self.desk.claim(claim).is_ok() {
+            self.let_go(grasp);
         }
         false
     }
 
-    /// Whether the report is about another object than `id`.
-    fn names_another(&self, id: NodeId) -> bool {
-        self.status.object.as_ref().and_then(|object| object.id).is_some_and(|named| named != id)
+    /// Which of the things in the hand the report is about: the one it names, or the last one
+    /// picked if it names none.
+    fn grasp(&mut self) -> Option<usize> {
+        let world = self.desk.world();
+        // What another task has placed meanwhile is not in this hand any more.
+        self.memory.in_hand.retain(|grasp| match grasp {
+            Grasp::Known(id) => world.graph().object(*id).is_none_or(Object::is_held),
+            _ => true,
+        });
+        let hand = &self.memory.in_hand;
+        match &self.status.object {
+            Some(named) => hand.iter().rposition(|grasp| means(world, grasp, named)),
+            None => hand.len().checked_sub(1),
+        }
+    }
+
+    fn let_go(&mut self, grasp: Option<usize>) {
+        if let Some(grasp) = grasp {
+            self.memory.in_hand.remove(grasp);
+        }
     }
 
     fn failed(&mut self) -> bool {
-        let Some(object) = self.held() else { return true };
         let dropped = self.status.pose.is_some()
             || self.status.room.is_some()
             || self.status.support.is_some();
-        if dropped {
+        let mut held = self.held();
+        if let Some(object) = held.last().cloned().filter(|_| dropped) {
             // Where the task wanted it is not where it fell: only the report counts.
             let claim = Claim {
                 target_room: self.status.room.clone(),
                 support: self.status.support.clone(),
                 ..self.claim(Action::Moved, object)
             };
-            if self.desk.claim(claim).is_err() {
-                return false;
+            // What is not put down by that stays in the gripper, and is told below.
+            if self.desk.claim(claim).is_ok() {
+                held.pop();
             }
-        } else {
-            let task = self.status.task_id.clone();
-            let rejection = Rejection::FailedHolding { task, object: object.clone() };
-            self.desk.reject(self.placing(Action::Moved, object), rejection);
         }
-        true
+        self.keep_holding(held, |task, object| Rejection::FailedHolding { task, object })
     }
 
     fn done(&mut self) -> bool {
-        if let Some(object) = self.held() {
-            let task = self.status.task_id.clone();
-            let rejection = Rejection::DoneHolding { task, object: object.clone() };
+        let held = self.held();
+        self.keep_holding(held, |task, object| Rejection::DoneHolding { task, object })
+    }
+
+    /// The task is over, but these stay in the gripper.
+    fn keep_holding(
+        &mut self,
+        held: Vec<NodeRef>,
+        why: impl Fn(String, NodeRef) -> Rejection,
+    ) -> bool {
+        for object in held {
+            let rejection = why(self.status.task_id.clone(), object.clone());
             self.desk.reject(self.placing(Action::Moved, object), rejection);
         }
         true
     }
 
-    /// What the task has in the gripper, if that is a known object that is still there.
-    fn held(&self) -> Option<NodeRef> {
-        let InHand::Known(id) = self.memory.in_hand else { return None };
+    /// What the task has in the gripper, as far as the graph knows it, in the order picked.
+    fn held(&self) -> Vec<NodeRef> {
         let world = self.desk.world();
-        world.graph().object(id).is_some_and(|o| o.is_held()).then(|| node_ref(world, id))
+        let held = |grasp: &Grasp| match grasp {
+            Grasp::Known(id) if world.graph().object(*id).is_some_and(Object::is_held) => {
+                Some(node_ref(world, *id))
+            }
+            _ => None,
+        };
+        self.memory.in_hand.iter().filter_map(held).collect()
     }
 
     /// An object that is known was moved; one that nobody knew is new.
@@ -221,6 +248,25 @@ impl Report<'_, '_> {
             Some(_) => Rejection::NothingNamed,
             None => Rejection::UnknownTask { task: self.status.task_id.clone() },
         }
+    }
+}
+
+/// Whether `named` may be what is grasped.
+fn means(world: &World, grasp: &Grasp, named: &NodeRef) -> bool {
+    let is = |id: NodeId| match (named.id, &named.label) {
+        (Some(named), _) => named == id,
+        (None, Some(label)) => {
+            world.known(id).is_some_and(|object| object.label.same_class(label.as_str()))
+        }
+        (None, None) => false,
+    };
+    match grasp {
+        Grasp::Known(id) => is(*id),
+        Grasp::Ambiguous(candidates) => candidates.iter().any(|id| is(*id)),
+        Grasp::Unknown(grasped) => match (&grasped.label, &named.label) {
+            (Some(grasped), Some(named)) => grasped.same_class(named.as_str()),
+            _ => grasped.id.is_some() && grasped.id == named.id,
+        },
     }
 }
 

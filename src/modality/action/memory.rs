@@ -7,12 +7,9 @@ use crate::change::NodeRef;
 use crate::event::Task;
 use crate::graph::{CanonicalError, Label, NodeId};
 
-/// What a task has in the gripper.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) enum InHand {
-    /// Nothing, as far as is known.
-    #[default]
-    Nothing,
+/// Something that a task has picked and not yet placed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Grasp {
     /// This object.
     Known(NodeId),
     /// Something of this name that the graph does not know.
@@ -26,7 +23,8 @@ pub(super) enum InHand {
 pub(super) struct TaskMemory {
     /// What was announced, and the number of the event that did.
     pub announced: Option<(u64, Task)>,
-    pub in_hand: InHand,
+    /// In the order picked.
+    pub in_hand: Vec<Grasp>,
 }
 
 /// By task id.
@@ -43,7 +41,8 @@ pub(super) fn write(tasks: &Tasks, out: &mut Writer) {
                 out.option(node.as_ref(), write_ref);
             }
         });
-        write_in_hand(&task.in_hand, out);
+        out.u64(task.in_hand.len() as u64);
+        task.in_hand.iter().for_each(|grasp| write_grasp(grasp, out));
     }
 }
 
@@ -52,18 +51,17 @@ fn write_ref(out: &mut Writer, node: &NodeRef) {
     out.text(node.label.as_ref().map_or("", Label::as_str));
 }
 
-fn write_in_hand(in_hand: &InHand, out: &mut Writer) {
-    match in_hand {
-        InHand::Nothing => out.u64(0),
-        InHand::Known(id) => {
+fn write_grasp(grasp: &Grasp, out: &mut Writer) {
+    match grasp {
+        Grasp::Known(id) => {
             out.u64(1);
             out.u64(id.bits());
         }
-        InHand::Unknown(node) => {
+        Grasp::Unknown(node) => {
             out.u64(2);
             write_ref(out, node);
         }
-        InHand::Ambiguous(ids) => {
+        Grasp::Ambiguous(ids) => {
             out.u64(3);
             out.u64(ids.len() as u64);
             ids.iter().for_each(|id| out.u64(id.bits()));
@@ -81,7 +79,9 @@ fn read_tasks(input: &mut Reader<'_>) -> Option<Tasks> {
     for _ in 0..count {
         let task_id = input.text()?.to_owned();
         let announced = input.option(|input| read_task(input, &task_id))?;
-        tasks.insert(task_id, TaskMemory { announced, in_hand: read_in_hand(input)? });
+        let grasps = input.u64()?;
+        let in_hand = (0..grasps).map(|_| read_grasp(input)).collect::<Option<_>>()?;
+        tasks.insert(task_id, TaskMemory { announced, in_hand });
     }
     Some(tasks)
 }
@@ -107,15 +107,14 @@ fn read_ref(input: &mut Reader<'_>) -> Option<NodeRef> {
     Some(NodeRef { id, label })
 }
 
-fn read_in_hand(input: &mut Reader<'_>) -> Option<InHand> {
+fn read_grasp(input: &mut Reader<'_>) -> Option<Grasp> {
     let id = |input: &mut Reader<'_>| NodeId::try_from(input.u64()?).ok();
     Some(match input.u64()? {
-        0 => InHand::Nothing,
-        1 => InHand::Known(id(input)?),
-        2 => InHand::Unknown(read_ref(input)?),
+        1 => Grasp::Known(id(input)?),
+        2 => Grasp::Unknown(read_ref(input)?),
         3 => {
             let count = input.u64()?;
-            InHand::Ambiguous((0..count).map(|_| id(input)).collect::<Option<_>>()?)
+            Grasp::Ambiguous((0..count).map(|_| id(input)).collect::<Option<_>>()?)
         }
         _ => return None,
     })

@@ -18,6 +18,7 @@
 //! | picked, but it is in the gripper already | rejected; it stays there, and this task may place it |
 //! | placed, but never picked | applied as one move (the robot's own hands are believed), or as an addition if no such object is known |
 //! | failed or done with something in the gripper | rejected: it stays in the gripper; a failure that tells where the object was dropped puts it there |
+//! | picked or placed by an id and a label that name different things | rejected |
 //! | a status of an unknown task that names no object | rejected |
 //!
 //! # False positives

@@ -395,3 +395,150 @@ fn a_thing_cannot_be_placed_on_itself_or_on_what_it_carries() {
     O6 bed R2 (5, 1, 0.3) measured
     ");
 }
+
+#[test]
+fn what_is_placed_by_another_name_is_not_what_is_in_the_hand() {
+    assert_snapshot!(story(vec![
+        naming(Status::Picked, NodeRef::id(id("O4")), None),
+        naming(Status::Placed, label("bowl"), Some(label("bed"))),
+        status(Status::Done),
+    ]), @r#"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 moved bowl O2: kitchen R1 -> bedroom R2 on bed O6: applied
+    c3 moved mug O4: - -> - on -: rejected [done_holding] task "t" is done but never placed mug O4: it stays in the gripper
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R2 on O6 (5, 1, 0.4) topological
+    O3 cereal R2 on O2 (5, 1, 0.5) topological
+    O4 mug R1 on O1 (1.2, 0, 0.6) held held
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    "#);
+}
+
+#[test]
+fn an_id_and_a_label_of_different_things_are_a_contradiction() {
+    let both = NodeRef { label: label("bed").label, ..NodeRef::id(id("O4")) };
+    assert_snapshot!(story(vec![
+        naming(Status::Picked, both.clone(), None),
+        naming(Status::Placed, both, Some(label("bed"))),
+    ]), @"
+    c1 removed bed O4: - -> - on -: rejected [contradiction] O4 is a mug, not a bed
+    c2 moved bed O4: - -> - on bed: rejected [contradiction] O4 is a mug, not a bed
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
+}
+
+#[test]
+fn what_another_task_placed_is_not_in_this_hand_any_more() {
+    let other = |status, object: &str, support: &str| {
+        Event::TaskStatus(TaskStatus {
+            object: Some(NodeRef::id(id(object))),
+            support: Some(NodeRef::id(id(support))),
+            ..TaskStatus::bare("other", status)
+        })
+    };
+    assert_snapshot!(story(vec![
+        naming(Status::Picked, NodeRef::id(id("O4")), None),
+        other(Status::Placed, "O4", "O6"),
+        status(Status::Done),
+    ]), @"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 moved mug O4: kitchen R1 -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R2 on O6 (5, 1, 0.4) topological
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
+}
+
+#[test]
+fn a_pick_that_is_rejected_does_not_hide_what_is_held() {
+    assert_snapshot!(story(vec![
+        naming(Status::Picked, NodeRef::id(id("O4")), None),
+        naming(Status::Picked, label("ghost"), None),
+        status(Status::Done),
+    ]), @r#"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 removed ghost: - -> - on -: rejected [unknown_object] no such object known: ghost
+    c3 moved mug O4: - -> - on -: rejected [done_holding] task "t" is done but never placed mug O4: it stays in the gripper
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) held held
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    "#);
+}
+
+#[test]
+fn two_things_in_one_hand_are_placed_by_name() {
+    assert_snapshot!(story(vec![
+        naming(Status::Picked, NodeRef::id(id("O4")), None),
+        naming(Status::Picked, NodeRef::id(id("O2")), None),
+        naming(Status::Placed, label("mug"), Some(label("bed"))),
+        naming(Status::Placed, label("bowl"), Some(label("bed"))),
+        status(Status::Done),
+    ]), @"
+    c1 removed mug O4: kitchen R1 -> - on table O1: applied
+    c2 removed bowl O2: kitchen R1 -> - on table O1: applied
+    c3 moved mug O4: kitchen R1 -> bedroom R2 on bed O6: applied
+    c4 moved bowl O2: kitchen R1 -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R2 on O6 (5, 1, 0.4) topological
+    O3 cereal R2 on O2 (5, 1, 0.5) topological
+    O4 mug R2 on O6 (5, 1, 0.4) topological
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
+}
+
+#[test]
+fn an_id_that_nobody_knows_is_not_given_to_a_new_thing() {
+    let unknown = NodeRef { label: label("vase").label, ..NodeRef::id(id("O16777215")) };
+    assert_snapshot!(story(vec![
+        naming(Status::Placed, unknown, Some(label("bed"))),
+        naming(Status::Placed, label("clock"), Some(label("bed"))),
+    ]), @"
+    c1 added vase O7: - -> bedroom R2 on bed O6: applied
+    c2 added clock O8: - -> bedroom R2 on bed O6: applied
+    --
+    O1 table R1 (1, 0, 0.5) measured
+    O2 bowl R1 on O1 (1, 0, 0.6) measured
+    O3 cereal R1 on O2 (1, 0, 0.7) measured
+    O4 mug R1 on O1 (1.2, 0, 0.6) measured
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    O7 vase R2 on O6 (5, 1, 0.45) topological
+    O8 clock R2 on O6 (5, 1, 0.45) topological
+    ");
+}
+
+#[test]
+fn nothing_is_placed_on_what_is_in_the_gripper() {
+    assert_snapshot!(story(vec![
+        naming(Status::Picked, NodeRef::id(id("O1")), None),
+        naming(Status::Placed, NodeRef::id(id("O5")), Some(NodeRef::id(id("O1")))),
+    ]), @"
+    c1 removed table O1: kitchen R1 -> - on -: applied
+    c2 moved mug O5: - -> - on O1: rejected [support_held] O1 is in the gripper: nothing can be put on it
+    --
+    O1 table R1 (1, 0, 0.5) held held
+    O2 bowl R1 on O1 (1, 0, 0.6) held held
+    O3 cereal R1 on O2 (1, 0, 0.7) held held
+    O4 mug R1 on O1 (1.2, 0, 0.6) held held
+    O5 mug R2 (5, 0, 0.05) measured
+    O6 bed R2 (5, 1, 0.3) measured
+    ");
+}

@@ -99,7 +99,7 @@ proptest! {
             let whole = Recording::open(&folder).unwrap();
             prop_assert_eq!(events(&whole, Walk::Everything), all);
             let saved = scratch.path().join("saved.mcap");
-            recover(&folder, &saved, &mut |_| ()).unwrap();
+            recover(&Recording::scan(&folder).unwrap(), &saved, &mut |_| ()).unwrap();
             let intact = verify(&saved, &mut |_| ()).unwrap();
             prop_assert_eq!(intact.status, Status::Intact, "{:?}", intact.findings);
         }

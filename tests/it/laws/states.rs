@@ -74,7 +74,7 @@ proptest! {
         let verified = verify(&path, &mut |_| ()).unwrap();
         prop_assert_eq!(verified.status, Status::Intact, "{:?}", verified.findings);
         prop_assert_eq!(verified.hash, seal.state_hash);
-        prop_assert_eq!(verified.chain, seal.chain);
+        prop_assert_eq!(verified.chain, Some(seal.chain));
         prop_assert_eq!(verified.events, written.len() as u64);
         prop_assert_eq!(verified.reprocessed, inputs.len() as u64);
         let recording = Recording::open(&path).unwrap();

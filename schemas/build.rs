@@ -21,7 +21,7 @@ const CHANNELS: [&str; 9] = [
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!("cargo:rerun-if-changed=schemas");
-    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=schemas/build.rs");
     let out = env::var("OUT_DIR")?;
     let files = CHANNELS.map(|stem| format!("schemas/scenefold/v1/{stem}.proto"));
     for (stem, file) in CHANNELS.iter().zip(&files) {
