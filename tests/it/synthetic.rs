@@ -132,6 +132,16 @@ fn map<const N: usize>(fields: [(&str, String); N]) -> Map {
     fields.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
+/// The hash of some texts, each preceded by its length: how the ends of the chain are made.
+fn hash_of(parts: &[&[u8]]) -> Link {
+    let mut bytes = Vec::new();
+    for part in parts {
+        bytes.extend((part.len() as u64).to_le_bytes());
+        bytes.extend_from_slice(part);
+    }
+    StateHash::of(&bytes)
+}
+
 impl ByHand {
     fn new() -> Self {
         let mut writer = LogWriter::new(Vec::new(), LogOptions::default()).unwrap();
@@ -144,7 +154,10 @@ impl ByHand {
             ("chain", genesis.to_string()),
         ]);
         writer.write_metadata("scenefold", meta).unwrap();
-        let (world, chain) = (World::default(), Chain::after(genesis));
+        let numbers = [1_u64.to_le_bytes(), 1_u64.to_le_bytes()].concat();
+        let config = Config::default().to_json();
+        let first = hash_of(&[&genesis.0, &numbers, b"scenefold 0.1.0", config.as_bytes()]);
+        let (world, chain) = (World::default(), Chain::after(first));
         Self { writer, chain, world, order: 0, changes: 0, primitives: 0, at: START }
     }
 
@@ -163,13 +176,10 @@ impl ByHand {
             }
             event => (own(&topic), wire::encode(event)),
         };
-        let class = spec.class;
         let channel = self.writer.register(spec).unwrap();
         let (time, published) = (logged.at.nanos(), logged.published.nanos());
         self.writer.write(channel, logged.order as u32, time, published, &data).unwrap();
-        if class == ChunkClass::Event {
-            self.chain.add(&topic.name(), logged.order, time, published, &data);
-        }
+        self.chain.add(&topic.name(), logged.order, time, published, &data);
         self.note(logged);
     }
 
@@ -210,12 +220,16 @@ impl ByHand {
 
     fn finish(mut self) -> Vec<u8> {
         self.writer.flush().unwrap();
+        let counts = [self.order, self.changes, self.primitives].map(u64::to_le_bytes).concat();
+        let (link, state_hash) = (self.chain.link(), self.world.graph().hash());
+        // Nothing is missing and nothing was edited.
+        let sealed = hash_of(&[&link.0, &counts, &state_hash.0, &[], &[]]);
         let seal = map([
             ("events", self.order.to_string()),
             ("changes", self.changes.to_string()),
             ("primitives", self.primitives.to_string()),
-            ("chain", self.chain.link().to_string()),
-            ("state_hash", self.world.graph().hash().to_string()),
+            ("chain", sealed.to_string()),
+            ("state_hash", state_hash.to_string()),
         ]);
         self.writer.write_metadata("scenefold.end", seal).unwrap();
         self.writer.finish().unwrap()
