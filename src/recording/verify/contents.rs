@@ -144,7 +144,8 @@ impl Check<'_> {
                 return self.find(Status::Corrupt, segment, what);
             }
         };
-        if self.broken {
+        let known_gap = checkpoint.order > self.order && self.gaps.contains(&self.order);
+        if self.broken || known_gap {
             return self.mend(segment, &checkpoint);
         }
         if checkpoint.order != self.order {
@@ -189,7 +190,7 @@ impl Check<'_> {
         if checkpoint.order > self.order {
             let (first, last) = (self.order + 1, checkpoint.order);
             self.gap(segment, format!("events #{first} to #{last} are missing"));
-            self.order = last;
+            (self.order, self.changes) = (last, checkpoint.changes);
         }
         let config = segment.meta.as_ref().map_or_else(Config::default, |m| m.config.clone());
         match (checkpoint.world(), checkpoint.updater(config)) {

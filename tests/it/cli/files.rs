@@ -59,7 +59,7 @@ fn what_is_there_is_never_overwritten() {
         vec!["import", "scene", &scene, "-o", &out],
         vec!["ingest", "-o", &out],
     ] {
-        run(&args).expect(1).says(&["exists", "there.mcap"]);
+        run(&args).expect(1).says(&["choose another name", "there.mcap"]);
         assert_eq!(fs::read_to_string(&there).unwrap(), "precious", "{args:?}");
     }
     let segments = folder.path().join("segments/").display().to_string();
@@ -79,7 +79,6 @@ fn errors_name_the_value_and_what_would_do() {
     on_recording("bisect REC --when absent(mug").says(&["--when", "column", "`)`"]);
     on_recording("bisect REC --when flies(mug)").says(&["flies"]);
     on_recording("export REC --format svg").says(&["svg", "spark-dsg"]);
-    on_recording("verify -").says(&["give it a file"]);
     on_recording("snapshot REC REC").says(&["every_rejection.snap", "rename one"]);
 }
 
