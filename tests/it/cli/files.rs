@@ -8,7 +8,7 @@ use super::{golden, on_recording, program, run};
 fn what_is_no_recording_is_said_to_be_none() {
     let folder = tempfile::tempdir().unwrap();
     let noise = folder.path().join("noise.mcap");
-    let bytes: Vec<u8> = (0..5000_u32).map(|n| (n * n >> 3) as u8).collect();
+    let bytes: Vec<u8> = (0..5000_u32).map(|n| ((n * n) >> 3) as u8).collect();
     fs::write(&noise, bytes).unwrap();
     let noise = noise.display().to_string();
     for args in [
