@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use super::open::{Recording, Segment};
+use super::orphans::Orphans;
 use crate::container::{LogError, MessageFilter, RawMessage};
 use crate::event::{Event, Logged, SensorMessage, Topic};
 use crate::history::EventLog;
@@ -85,8 +86,9 @@ impl Recording {
             false => (0, 0),
         };
         let mut counted = 0;
-        for segment in &self.segments[from_segment..] {
+        for (n, segment) in self.segments.iter().enumerate().skip(from_segment) {
             let filter = MessageFilter { from_time, ..filter(segment, walk, numbered) };
+            let mut orphans = Orphans::of(self, n);
             let mut each = |raw: RawEvent<'_>| {
                 counted += 1;
                 let order = if numbered { raw.order } else { counted };
@@ -94,7 +96,7 @@ impl Recording {
                     return ControlFlow::Break(());
                 }
                 let wanted = walk == Walk::Everything || !segment.sensors.contains(&raw.channel);
-                if order < first || !wanted {
+                if (numbered && !orphans.takes(order)) || order < first || !wanted {
                     return ControlFlow::Continue(());
                 }
                 visitor(segment, RawEvent { order, ..raw })

@@ -21,6 +21,7 @@ mod checkpoint;
 mod events;
 mod meta;
 mod open;
+mod orphans;
 mod parallel;
 mod point;
 mod recorder;

@@ -41,6 +41,8 @@ pub(super) struct Segment {
     kinds: Vec<Kind>,
     /// Places of the chunks that may hold events, in the order of the log.
     event_chunks: OnceLock<Vec<u32>>,
+    /// Number of the last event that is no picture; see [`super::orphans`].
+    pub last_event: OnceLock<u64>,
 }
 
 /// Why a recording cannot be opened.
@@ -233,6 +235,7 @@ impl Segment {
             checkpoints: OnceLock::new(),
             kinds: Vec::new(),
             event_chunks: OnceLock::new(),
+            last_event: OnceLock::new(),
         };
         segment.sort_channels();
         Ok(segment)

@@ -9,6 +9,7 @@ use super::checkpoint::Checkpoint;
 use super::events::{RawEvent, decode};
 use super::meta::{Ending, Meta, Seal};
 use super::open::{Recording, Segment};
+use super::orphans::Orphans;
 use super::recorder::RecordError;
 use super::sink::{CLASS_KEY, class_of};
 use crate::change::World;
@@ -52,7 +53,8 @@ pub fn recover(
     let io = |error| RecordError::io(out, error);
     let file = OpenOptions::new().write(true).create_new(true).open(out).map_err(io)?;
     let mut copy = Copy::new(recording, file)?;
-    for segment in &recording.segments {
+    for (n, segment) in recording.segments.iter().enumerate() {
+        copy.orphans = Orphans::of(recording, n);
         copy.segment(segment, progress)?;
     }
     let recovered = copy.finish()?;
@@ -77,6 +79,7 @@ struct Copy<'r> {
     lost: Vec<LostEvents>,
     /// After which event the last checkpoint of this segment stands.
     checkpointed: Option<u64>,
+    orphans: Orphans,
 }
 
 impl<'r> Copy<'r> {
@@ -109,6 +112,7 @@ impl<'r> Copy<'r> {
             messages: 0,
             lost: Vec::new(),
             checkpointed: None,
+            orphans: Orphans::of(recording, 0),
         })
     }
 
@@ -158,7 +162,8 @@ impl<'r> Copy<'r> {
         }
         let is_event =
             segment.events.contains(&message.channel) || segment.sensors.contains(&message.channel);
-        if is_event && numbered && !self.event(segment, topic, message) {
+        let stray = is_event && !self.orphans.takes(u64::from(message.sequence));
+        if numbered && (stray || (is_event && !self.event(segment, topic, message))) {
             return Ok(());
         }
         let handle = self.channel(segment, message)?;

@@ -86,7 +86,7 @@ impl Sink {
 
     /// Appends the events of one update.
     pub fn append(&mut self, events: &[Logged]) -> Result<(), RecordError> {
-        let mut bytes = 0;
+        let (mut bytes, position) = (0, self.writer.position());
         for logged in events {
             bytes += self.append_one(logged)?;
         }
@@ -94,7 +94,10 @@ impl Sink {
             self.pending.push_back((self.writer.progress().accepted, last.order));
         }
         self.open_bytes += bytes;
-        if self.open_bytes >= EVENT_CHUNK_BYTES {
+        // A sensor chunk that left takes the events before it along, so that a crash finds as
+        // few pictures as can be without them.
+        let left = self.writer.position() != position;
+        if self.open_bytes >= EVENT_CHUNK_BYTES || (left && self.open_bytes > 0) {
             self.close_chunks()?;
         }
         self.settle()

@@ -9,6 +9,7 @@ use crate::recording::checkpoint::Checkpoint;
 use crate::recording::events::{RawEvent, decode};
 use crate::recording::meta::{Ending, Meta, Seal};
 use crate::recording::open::Segment;
+use crate::recording::orphans::Orphans;
 use crate::recording::reprocess::{Again, ReprocessError};
 use crate::updater::Config;
 
@@ -43,6 +44,7 @@ impl Check<'_> {
 
     fn begin(&mut self, n: usize, segment: &Segment) {
         self.primitives = 0;
+        self.orphans = Orphans::of(self.recording, n);
         if let Some(order) = segment.meta.as_ref().and_then(|meta| meta.edited) {
             let what = format!("it was recovered from one that was edited before event #{order}");
             self.find(Status::Tampered, segment, what);
@@ -64,9 +66,12 @@ impl Check<'_> {
         if !event && !sensor {
             return;
         }
-        self.events += 1;
         let numbered = segment.is_numbered();
         let order = if numbered { u64::from(message.sequence) } else { self.order + 1 };
+        if numbered && !self.orphans.takes(order) {
+            return;
+        }
+        self.events += 1;
         self.number(segment, order);
         let (at, published) = (message.log_time, message.publish_time);
         self.chain.add(&topic.name(), order, at, published, message.data);

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use super::chain::{Chain, GENESIS, Link};
 use super::open::{OpenError, Recording, Segment};
+use super::orphans::Orphans;
 use super::reprocess::Again;
 use crate::change::World;
 use crate::graph::StateHash;
@@ -117,6 +118,7 @@ struct Check<'r> {
     ever_lost: bool,
     changes: u64,
     primitives: u64,
+    orphans: Orphans,
     /// Where the last segment ended.
     ended: Option<Link>,
     gaps: Vec<u64>,
@@ -142,6 +144,7 @@ impl<'r> Check<'r> {
             ever_lost: false,
             changes: 0,
             primitives: 0,
+            orphans: Orphans::of(recording, 0),
             ended: None,
             gaps: gaps.flat_map(|meta| meta.gaps.clone()).collect(),
         }
