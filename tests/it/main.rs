@@ -20,6 +20,7 @@ mod kill;
 mod laws;
 mod mutations;
 mod python;
+mod readme;
 mod sha256;
 mod synthetic;
 mod tidy;
