@@ -36,10 +36,22 @@ const TEXTS: [&str; 16] = [
 ];
 
 const IMPORTS: [(u8, &str); 4] = [
-    (0, r#"{"rooms":[{"id":"R0","label":"hall"}],"objects":[{"id":"O0","label":"cup","room":"R0","support":null,"pose":{"position":[0,0,0],"orientation":{"w":1,"x":0,"y":0,"z":0}},"size":[1,1,1]}]}"#),
-    (1, r#"{"SPARK_ORIGIN":{"version":"1.1.0"},"nodes":[{"id":5692549928996306944,"layer":2,"attributes":{"type":"ObjectNodeAttributes","position":[0,0,0],"name":"","semantic_label":1}}],"edges":[],"layer_ids":[2,3,4,5]}"#),
-    (2, r#"{"nodes":[{"id":1,"class_name":"kitchen","category":"Rooms","bounding_box":{"center":[0,0,0],"size":[1,1,1]}}],"edges":[{"from_id":2,"to_id":1,"relation_type":"INSIDE"}]}"#),
-    (3, "split,day,minute,object_id,object,from_id,from,to_id,to\ntrain,0,1,2,cup,3,table,4,sink\n"),
+    (
+        0,
+        r#"{"rooms":[{"id":"R0","label":"hall"}],"objects":[{"id":"O0","label":"cup","room":"R0","support":null,"pose":{"position":[0,0,0],"orientation":{"w":1,"x":0,"y":0,"z":0}},"size":[1,1,1]}]}"#,
+    ),
+    (
+        1,
+        r#"{"SPARK_ORIGIN":{"version":"1.1.0"},"nodes":[{"id":5692549928996306944,"layer":2,"attributes":{"type":"ObjectNodeAttributes","position":[0,0,0],"name":"","semantic_label":1}}],"edges":[],"layer_ids":[2,3,4,5]}"#,
+    ),
+    (
+        2,
+        r#"{"nodes":[{"id":1,"class_name":"kitchen","category":"Rooms","bounding_box":{"center":[0,0,0],"size":[1,1,1]}}],"edges":[{"from_id":2,"to_id":1,"relation_type":"INSIDE"}]}"#,
+    ),
+    (
+        3,
+        "split,day,minute,object_id,object,from_id,from,to_id,to\ntrain,0,1,2,cup,3,table,4,sink\n",
+    ),
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {
