@@ -27,7 +27,7 @@ fn best_by<const N: usize>(
         for (job, best) in jobs.iter_mut().zip(&mut best) {
             let start = now();
             job();
-            *best = (*best).min(now() - start);
+            *best = (*best).min(now().saturating_sub(start));
         }
     }
     best
