@@ -14,6 +14,8 @@ mod primitive;
 mod record;
 mod rejection;
 mod resolve;
+#[cfg(test)]
+mod tests;
 mod transaction;
 mod world;
 

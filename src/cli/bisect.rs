@@ -5,11 +5,13 @@ use std::ops::ControlFlow;
 
 use super::output::Output;
 use super::progress::Counted;
+use super::replay::state_at;
 use super::source::{self, RecordingArg};
 use super::{Outcome, UsageError};
 use crate::event::Event;
 use crate::history::{BisectDocument, Expr, Hit, first_holding};
 use crate::recording::{Recording, Walk};
+use crate::time::At;
 
 /// The first event after which a condition holds
 #[derive(Debug, clap::Args)]
@@ -40,6 +42,9 @@ pub fn run(args: &Bisect, out: &mut Output) -> anyhow::Result<Outcome> {
     let expr: Expr = args.when.parse().map_err(|error| UsageError(format!("--when: {error}")))?;
     let recording = source::open(&args.recording.path)?;
     let hit = first_holding(&Counted::new(&recording), &expr)?;
+    if hit.is_none() {
+        check_names(&recording, &expr)?;
+    }
     if args.json {
         out.json(&BisectDocument::of(hit.as_ref()))?;
     } else {
@@ -47,6 +52,18 @@ pub fn run(args: &Bisect, out: &mut Output) -> anyhow::Result<Outcome> {
     }
     let outcome = source::warn(&recording);
     Ok(if hit.is_none() { Outcome::Findings } else { outcome })
+}
+
+/// A condition on what nobody ever heard of never holds, but that is not what was asked.
+fn check_names(recording: &Recording, expr: &Expr) -> anyhow::Result<()> {
+    let state = state_at(recording, At::End)?;
+    match expr.unknown_names(&state.world).first() {
+        Some(who) => Err(UsageError(format!(
+            "--when: nothing in the recording is called {who}; see `scenefold replay`"
+        ))
+        .into()),
+        None => Ok(()),
+    }
 }
 
 fn print(recording: &Recording, hit: Option<&Hit>, out: &mut Output) -> anyhow::Result<()> {

@@ -105,7 +105,7 @@ fn proven(recording: &Recording, out: &mut Output) -> anyhow::Result<Outcome> {
         "Does it replay to the same belief       scenefold verify REC; scenefold reprocess REC",
     )?;
     let config = recording.meta().map_or_else(Config::default, |meta| meta.config.clone());
-    let again = reprocess(recording, config, &mut |_, _| Ok::<_, RecordError>(()))?;
+    let again = reprocess(recording, &config, &mut |_, _| Ok::<_, RecordError>(()))?;
     let replayed = recording.state_at(At::End, 1)?.graph().hash();
     let derived = again.updater.graph().hash();
     let same = replayed == derived && again.different == 0;

@@ -1,7 +1,7 @@
 //! `scenefold diff`
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
@@ -92,7 +92,7 @@ enum Side {
 }
 
 impl Side {
-    fn open(path: &PathBuf) -> anyhow::Result<Self> {
+    fn open(path: &Path) -> anyhow::Result<Self> {
         if path.as_os_str() == "-" || is_mcap(path) || !looks_like_json(path) {
             return Ok(Self::Recording(source::open(path)?));
         }
@@ -112,6 +112,6 @@ impl Side {
     }
 }
 
-fn looks_like_json(path: &PathBuf) -> bool {
+fn looks_like_json(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "json")
 }

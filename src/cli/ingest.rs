@@ -1,6 +1,6 @@
 //! `scenefold ingest`
 
-use std::io::{self, BufRead, Write};
+use std::io::{self, BufRead, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::time::Duration;
@@ -13,7 +13,7 @@ use super::output::Output;
 use super::replay::state_at;
 use super::source::{self, is_mcap, text};
 use super::{Outcome, UsageError};
-use crate::event::Event;
+use crate::event::{Event, Logged};
 use crate::interchange::lines;
 use crate::interchange::scene;
 use crate::recording::{Recorded, Recorder, RecorderOptions, SyncPolicy};
@@ -29,7 +29,7 @@ A line names the time, the topic and the message:
    \"target_room\":{\"label\":\"bedroom\"}}}
   {\"at\":\"2026-01-05T08:01:00Z\",\"topic\":\"/robot/task_status\",
    \"message\":{\"task_id\":\"t1\",\"status\":\"picked\"}}
-Each update is answered by a line {\"order\":…,\"acknowledged\":…,\"changes\":[…]}; once an event
+Each update is answered by a line {\"order\":…,\"at\":…,\"acknowledged\":…,\"changes\":[…]}; once an event
 number is acknowledged, everything up to it survives a crash as the --sync policy says.
 A line that is refused is answered by {\"line\":…,\"error\":…} and changes nothing.
 
@@ -67,9 +67,14 @@ enum Sync {
     None,
 }
 
+/// Longest line that is taken: a sentence of the largest size, every byte of it escaped.
+const LINE_BYTES: u64 = 8 << 20;
+
 #[derive(Serialize)]
 struct Acknowledgement {
     order: u64,
+    /// Log time: later than what the line says if an event before it was later.
+    at: String,
     acknowledged: u64,
     changes: Vec<crate::document::ChangeDocument>,
 }
@@ -83,39 +88,61 @@ struct Refusal {
 /// Runs `scenefold ingest`.
 pub fn run(args: &Ingest, out: &mut Output) -> anyhow::Result<Outcome> {
     let mut recorder = args.recorder()?;
+    let outcome = take_all(args, &mut recorder, out);
+    // Whatever went wrong, what was taken is kept: the recording is ended either way.
+    let ended = recorder.finish();
+    let outcome = outcome?;
+    ended?;
+    Ok(outcome)
+}
+
+fn take_all(args: &Ingest, recorder: &mut Recorder, out: &mut Output) -> anyhow::Result<Outcome> {
     let mut outcome = Outcome::Clean;
     let lines = lines_of_stdin();
     let idle = Duration::from_nanos(args.interval.0);
     let mut number = 0;
     loop {
         let line = match lines.recv_timeout(idle) {
-            Ok(line) => line.context("reading standard input")?,
+            Ok(line) => line?,
             // Nobody says anything: what was said last should not wait for more.
             Err(RecvTimeoutError::Timeout) => {
                 if recorder.acknowledged() < recorder.updater().order() {
-                    acknowledge(&mut recorder, out)?;
+                    acknowledge(recorder, out)?;
                 }
                 continue;
             }
             Err(RecvTimeoutError::Disconnected) => break,
         };
         number += 1;
-        if !line.trim().is_empty() && !take(&mut recorder, &line, number, out)? {
+        if line.trim_ascii().is_empty() {
+            continue;
+        }
+        if !take(recorder, &line, number, out)? {
             outcome = Outcome::Findings;
         }
         out.flush()?;
     }
-    acknowledge(&mut recorder, out)?;
-    recorder.finish()?;
+    acknowledge(recorder, out)?;
     Ok(outcome)
 }
 
-/// Lines as they arrive, read by a thread so that waiting for one can be given up.
-fn lines_of_stdin() -> Receiver<io::Result<String>> {
-    let (sender, receiver) = sync_channel(1024);
+/// Lines as they arrive, read by a thread so that waiting for one can be given up. Of a line that
+/// is too long only the beginning is kept, enough to be refused.
+fn lines_of_stdin() -> Receiver<io::Result<Vec<u8>>> {
+    let (sender, receiver) = sync_channel(64);
     std::thread::spawn(move || {
-        for line in io::stdin().lock().lines() {
-            if sender.send(line).is_err() {
+        let mut stdin = io::stdin().lock();
+        loop {
+            let mut line = Vec::new();
+            let read = (&mut stdin).take(LINE_BYTES + 1).read_until(b'\n', &mut line);
+            let line = match read {
+                Ok(0) => return,
+                Ok(_) if line.len() as u64 > LINE_BYTES => skip_line(&mut stdin).map(|()| line),
+                Ok(_) => Ok(line),
+                Err(error) => Err(error),
+            };
+            let failed = line.is_err();
+            if sender.send(line).is_err() || failed {
                 return;
             }
         }
@@ -123,10 +150,25 @@ fn lines_of_stdin() -> Receiver<io::Result<String>> {
     receiver
 }
 
+fn skip_line(input: &mut impl BufRead) -> io::Result<()> {
+    loop {
+        let buffer = input.fill_buf()?;
+        let (n, done) = match buffer.iter().position(|byte| *byte == b'\n') {
+            Some(end) => (end + 1, true),
+            None => (buffer.len(), buffer.is_empty()),
+        };
+        input.consume(n);
+        if done {
+            return Ok(());
+        }
+    }
+}
+
 /// Makes everything safe, and says so.
 fn acknowledge(recorder: &mut Recorder, out: &mut Output) -> anyhow::Result<()> {
     let (acknowledged, order) = (recorder.sync()?, recorder.updater().order());
-    out.json_line(&Acknowledgement { order, acknowledged, changes: Vec::new() })?;
+    let (at, changes) = (recorder.updater().at().to_string(), Vec::new());
+    out.json_line(&Acknowledgement { order, at, acknowledged, changes })?;
     out.flush()?;
     Ok(())
 }
@@ -134,13 +176,19 @@ fn acknowledge(recorder: &mut Recorder, out: &mut Output) -> anyhow::Result<()> 
 /// Records one line and answers it; `false` if it was refused or rejected.
 fn take(
     recorder: &mut Recorder,
-    line: &str,
+    line: &[u8],
     number: u64,
     out: &mut Output,
 ) -> anyhow::Result<bool> {
     let refuse = |out: &mut Output, error: String| {
         out.json_line(&Refusal { line: number, error })?;
         Ok(false)
+    };
+    if line.len() as u64 > LINE_BYTES {
+        return refuse(out, format!("the line is longer than {LINE_BYTES} bytes"));
+    }
+    let Ok(line) = std::str::from_utf8(line) else {
+        return refuse(out, "the line is not UTF-8 text".to_owned());
     };
     let (at, event) = match lines::parse(line) {
         Ok(input) => input,
@@ -167,8 +215,9 @@ fn answer(recorded: &Recorded) -> (Acknowledgement, bool) {
         _ => None,
     });
     let changes = changes.collect();
-    let order = recorded.events[0].order;
-    (Acknowledgement { order, acknowledged: recorded.acknowledged, changes }, clean)
+    let Logged { order, at, .. } = recorded.events[0];
+    let at = at.to_string();
+    (Acknowledgement { order, at, acknowledged: recorded.acknowledged, changes }, clean)
 }
 
 impl Ingest {
@@ -179,8 +228,7 @@ impl Ingest {
             Sync::None => SyncPolicy::Never,
         };
         let options = RecorderOptions { sync, ..RecorderOptions::default() };
-        let goes_on = self.out.is_dir() && std::fs::read_dir(&self.out)?.next().is_some();
-        if goes_on {
+        if Recorder::can_append(&self.out)? {
             if self.graph.is_some() || self.config.is_some() {
                 let what = "a recording that is gone on with has its graph and configuration already: \
                             leave out --graph and --config";

@@ -50,10 +50,11 @@ enum ModalityArg {
 /// Runs `scenefold log`.
 pub fn run(args: &Log, out: &mut Output) -> anyhow::Result<Outcome> {
     let recording = source::open(&args.recording.path)?;
-    let mut result = Ok(());
+    let (mut result, mut found) = (Ok(()), false);
     recording.visit_events(Walk::Events, (1, u64::MAX), &mut |logged| {
         let Event::Change(record) = &logged.event else { return ControlFlow::Continue(()) };
         if args.wants(record) {
+            found = true;
             result = match args.json {
                 true => out.json_line(&ChangeDocument::of(record)),
                 false => print(record, out),
@@ -62,6 +63,10 @@ pub fn run(args: &Log, out: &mut Output) -> anyhow::Result<Outcome> {
         if result.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     result?;
+    if let (false, Some(object)) = (found, &args.object) {
+        // Silence could be taken for a misspelt name; on stderr it is no part of the answer.
+        let _ = writeln!(std::io::stderr(), "no such change of {object:?}");
+    }
     Ok(source::warn(&recording))
 }
 

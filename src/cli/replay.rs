@@ -49,6 +49,10 @@ pub fn state_at(recording: &Recording, at: At) -> anyhow::Result<State> {
     let state = recording.state_at(at, threads()).map_err(|error| {
         anyhow::Error::new(error).context(recording.path().display().to_string())
     })?;
+    if state.graph().object_count() == 0 && !recording.has_graph() {
+        let note = "note: the recording holds neither /graph/initial nor /primitive: no graph";
+        let _ = writeln!(std::io::stderr(), "{note}");
+    }
     if let Some(why) = &state.uncertain {
         let _ = writeln!(std::io::stderr(), "warning: this state may be wrong: {why}");
     }

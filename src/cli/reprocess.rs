@@ -68,7 +68,7 @@ pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     let recorder = args.out.as_ref().map(|path| Recorder::create(path, config.clone(), &options));
     let mut recorder = recorder.transpose()?;
     let progress = counter("inputs");
-    let result = reprocess(&recording, config, &mut |input, _| {
+    let result = reprocess(&recording, &config, &mut |input, _| {
         progress.inc(1);
         match &mut recorder {
             Some(recorder) => recorder.record(input.published, input.event.clone()).map(drop),

@@ -50,12 +50,18 @@ pub struct Seal {
 
 /// What a seal is over.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ending<'m> {
+pub struct Ending<'m> {
+    /// Number of the last event.
     pub events: u64,
+    /// Number of the last change.
     pub changes: u64,
+    /// Number of primitives in the segment.
     pub primitives: u64,
+    /// Link of the chain after the last event.
     pub link: Link,
+    /// Hash of the graph after the last event.
     pub state_hash: StateHash,
+    /// What the segment says of itself.
     pub meta: &'m Meta,
 }
 
@@ -104,13 +110,14 @@ impl Meta {
     }
 
     /// The link before the first event of the segment.
-    pub(super) fn first_link(&self) -> Link {
+    pub fn first_link(&self) -> Link {
         let numbers = [u64::from(self.format_version), self.first_order].map(u64::to_le_bytes);
         let (program, config) = (self.program.as_bytes(), self.config.to_json());
         hash_of(&[&self.chain.0, &numbers.concat(), program, config.as_bytes()])
     }
 
-    pub(super) fn record(&self) -> (&'static str, Map) {
+    /// The metadata record: its name and its fields.
+    pub fn record(&self) -> (&'static str, Map) {
         let gaps: Vec<String> = self.gaps.iter().map(u64::to_string).collect();
         let mut map = map([
             ("format_version", self.format_version.to_string()),
@@ -163,7 +170,8 @@ impl Default for Meta {
 }
 
 impl Seal {
-    pub(super) fn record(&self) -> (&'static str, Map) {
+    /// The metadata record: its name and its fields.
+    pub fn record(&self) -> (&'static str, Map) {
         let map = map([
             ("events", self.events.to_string()),
             ("changes", self.changes.to_string()),

@@ -36,7 +36,7 @@ mod verify;
 pub use chain::{Chain, Link};
 pub use checkpoint::Checkpoint;
 pub use events::{Walk, WalkError};
-pub use meta::{FORMAT_VERSION, Meta, Seal};
+pub use meta::{Ending, FORMAT_VERSION, Meta, Seal};
 pub use open::{OpenError, Recording};
 pub use point::{Point, PointError};
 pub use recorder::{RecordError, Recorded, Recorder, RecorderOptions, SyncPolicy};

@@ -154,6 +154,12 @@ impl Recording {
         self.segments.iter().find_map(|segment| segment.meta.as_ref())
     }
 
+    /// Whether there is anything to make a graph of.
+    pub fn has_graph(&self) -> bool {
+        let topics = || self.segments.iter().flat_map(|segment| segment.topics.values());
+        topics().any(|topic| matches!(topic, Topic::InitialGraph | Topic::Primitive))
+    }
+
     /// Whether no message at all was ever written.
     pub fn is_empty(&self) -> bool {
         self.segments.iter().all(|segment| segment.log.chunks().is_empty())

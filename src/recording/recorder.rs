@@ -9,7 +9,7 @@ use super::checkpoint::Checkpoint;
 use super::meta::{Meta, Seal};
 use super::open::{OpenError, Recording};
 use super::resume::End;
-use super::segment::{next_segment, segment_files};
+use super::segment::next_segment;
 use super::sink::Sink;
 use crate::container::WriteError;
 use crate::event::{Event, Logged};
@@ -145,6 +145,19 @@ impl Recorder {
         Ok(Self::over(Updater::new(config), sink, options))
     }
 
+    /// Whether `path` is a folder with a recording that can be gone on with; segments that were
+    /// never written to do not count.
+    pub fn can_append(path: &Path) -> Result<bool, RecordError> {
+        if !path.is_dir() {
+            return Ok(false);
+        }
+        match Recording::open(path) {
+            Ok(recording) => Ok(recording.meta().is_some() || !recording.is_empty()),
+            Err(OpenError::NoSegments { .. }) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+
     /// Goes on with the recording in the folder `path`, in a new segment, from the state that
     /// it ends with.
     pub fn append(path: &Path, options: &RecorderOptions) -> Result<Self, RecordError> {
@@ -233,9 +246,8 @@ fn file_for(path: &Path) -> Result<PathBuf, RecordError> {
         return Ok(path.to_owned());
     }
     std::fs::create_dir_all(path).map_err(|error| io_error(path, error))?;
-    let segments = segment_files(path).map_err(|error| io_error(path, error))?;
-    if let Some(first) = segments.into_iter().next() {
-        return Err(RecordError::Exists { path: first });
+    if Recorder::can_append(path)? {
+        return Err(RecordError::Exists { path: path.to_owned() });
     }
     next_segment(path).map_err(|error| io_error(path, error))
 }

@@ -75,6 +75,8 @@ struct Copy<'r> {
     primitives: u64,
     messages: u64,
     lost: Vec<LostEvents>,
+    /// After which event the last checkpoint of this segment stands.
+    checkpointed: Option<u64>,
 }
 
 impl<'r> Copy<'r> {
@@ -106,6 +108,7 @@ impl<'r> Copy<'r> {
             primitives: 0,
             messages: 0,
             lost: Vec::new(),
+            checkpointed: None,
         })
     }
 
@@ -114,6 +117,10 @@ impl<'r> Copy<'r> {
         segment: &Segment,
         progress: &mut dyn FnMut(u64),
     ) -> Result<(), RecordError> {
+        self.checkpointed = None;
+        if let Ok(Some(false)) = segment.log.check_data_section() {
+            self.recording.report(segment, "the checksum of the data section does not hold");
+        }
         for record in segment.log.metadata() {
             // Metadata of other programs is kept; our own is written anew.
             if !record.name.starts_with("scenefold") {
@@ -209,6 +216,15 @@ impl<'r> Copy<'r> {
                 return Ok(());
             }
         };
+        let doubled = self.checkpointed == Some(checkpoint.order);
+        if checkpoint.order < self.order || doubled {
+            let what = format_args!(
+                "a checkpoint after #{} stands after #{}: left out",
+                checkpoint.order, self.order
+            );
+            self.recording.report(segment, what);
+            return Ok(());
+        }
         if checkpoint.order > self.order {
             // What led up to it is lost, but not the state it led to.
             self.lose(checkpoint.order);
@@ -218,6 +234,7 @@ impl<'r> Copy<'r> {
         if !self.lost.is_empty() {
             self.world = world;
         }
+        self.checkpointed = Some(checkpoint.order);
         self.compare_link(&checkpoint);
         let packed = checkpoint.packed();
         let payload = Checkpoint { chain: self.chain.close(), ..checkpoint }.encode(packed);

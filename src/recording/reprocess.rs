@@ -65,24 +65,45 @@ pub type UpdateSink<'s, E> = dyn FnMut(&Logged, &[Logged]) -> Result<(), E> + 's
 /// was recorded, and hands each update to `sink`, for example to record it anew.
 pub fn reprocess<E>(
     recording: &Recording,
-    config: Config,
+    config: &Config,
     sink: &mut UpdateSink<'_, E>,
 ) -> Result<Reprocessed, ReprocessError<E>> {
-    let mut again = Again::new(Updater::new(config));
-    let mut failure = None;
-    recording.visit_events(Walk::Everything, (1, u64::MAX), &mut |logged| match again
-        .take(logged, sink)
-    {
-        Ok(()) => ControlFlow::Continue(()),
-        Err(error) => {
-            failure = Some(error);
-            ControlFlow::Break(())
+    let mut again = Again::new(Updater::new(config.clone()));
+    let (mut failure, mut expected) = (None, 1);
+    recording.visit_events(Walk::Everything, (1, u64::MAX), &mut |logged| {
+        if logged.order > expected && recording.is_numbered() {
+            let Some((next, updater)) = after_gap(recording, logged.order, config) else {
+                return ControlFlow::Break(());
+            };
+            again.go_on_from(updater);
+            expected = next;
+        }
+        if logged.order < expected {
+            // Between a gap and the checkpoint that mends it nothing can be compared.
+            return ControlFlow::Continue(());
+        }
+        expected = logged.order + 1;
+        match again.take(logged, sink) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                failure = Some(error);
+                ControlFlow::Break(())
+            }
         }
     })?;
     match failure {
         Some(error) => Err(error),
         None => Ok(again.finish()),
     }
+}
+
+/// With what a gap before event `order` ends: the number of the event after the first usable
+/// checkpoint from there on, and its state.
+fn after_gap(recording: &Recording, order: u64, config: &Config) -> Option<(u64, Updater)> {
+    recording.checkpoints().filter(|at| at.order + 1 >= order).find_map(|at| {
+        let updater = recording.checkpoint(at).ok()?.updater(config.clone()).ok()?;
+        Some((at.order + 1, updater))
+    })
 }
 
 /// The comparison on its way through a log.
@@ -144,6 +165,13 @@ impl Again {
     pub fn missing_tail(&self) -> Vec<Logged> {
         let Some((_, events)) = &self.current else { return Vec::new() };
         if self.recorded.is_empty() { events[1..].to_vec() } else { Vec::new() }
+    }
+
+    /// Goes on from a known state, without what was not compared by then.
+    fn go_on_from(&mut self, updater: Updater) {
+        self.forget_last();
+        self.recorded.clear();
+        self.updater = updater;
     }
 
     /// Leaves the last input out of the comparison.

@@ -264,6 +264,7 @@ fn without_the_mug(message: &Message) -> Vec<u8> {
     }
     let state = updater.to_bytes();
     let head = CheckpointHead {
+        changes: updater.changes(),
         state_hash: updater.graph().hash().0,
         memory_hash: StateHash::of(&state).0,
         ..found.head

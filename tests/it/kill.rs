@@ -42,7 +42,9 @@ impl Robot {
         let n = self.sent.len() as u64;
         let message = match n % 3 {
             0 => r#"{"task_id":"t","status":"picked","object":{"id":"O4"}}"#,
-            1 if n % 2 == 0 => r#"{"task_id":"t","status":"placed","room":{"label":"bedroom"}}"#,
+            1 if n.is_multiple_of(2) => {
+                r#"{"task_id":"t","status":"placed","room":{"label":"bedroom"}}"#
+            }
             1 => r#"{"task_id":"t","status":"placed","support":{"label":"table"}}"#,
             _ => r#"{"task_id":"t","status":"done"}"#,
         };
@@ -118,7 +120,7 @@ fn session(dice: &mut Dice, robot: &mut Robot, mut running: Session) -> u64 {
     }
     if dice.below(3) == 0 {
         let half = r#"{"at":"2026-01-05T00:00:00Z","topic":"/robot/ta"#;
-        running.send(&half.as_bytes()[..1 + dice.below(half.len() as u64 - 1) as usize]);
+        running.send(&half.as_bytes()[..=dice.below(half.len() as u64 - 1) as usize]);
     }
     thread::sleep(Duration::from_micros(dice.below(3000)));
     running.kill(seen)

@@ -9,6 +9,9 @@
 //! - `python`: other readers agree.
 //! - `tidy`: the shape of the sources.
 
+// Tests are read far more often than they run.
+#![allow(clippy::format_push_string, clippy::format_collect, clippy::needless_for_each)]
+
 mod cli;
 mod forged;
 mod golden;

@@ -1,4 +1,6 @@
 //! SHA-256 (FIPS 180-4), for the checksums beside the recordings: no dependency is worth it.
+// The constants are written as in the standard.
+#![allow(clippy::unreadable_literal)]
 
 /// Cube roots of the first 64 primes, 32 bits of their fractions.
 const K: [u32; 64] = [

@@ -15,7 +15,9 @@ use scenefold::event::{Event, Logged, Status, Task, TaskStatus, Topic, Utterance
 use scenefold::geometry::{Pose, Size};
 use scenefold::graph::{Label, Node, Region, StateHash};
 use scenefold::modality::Desk;
-use scenefold::recording::{Chain, Checkpoint, Link, Recording, Status as Verdict, Walk, verify};
+use scenefold::recording::{
+    Chain, Checkpoint, Ending, Meta, Recording, Status as Verdict, Walk, verify,
+};
 use scenefold::time::Stamp;
 use scenefold::updater::{Config, Updater};
 use scenefold::wire::{self, CheckpointHead, ros2};
@@ -118,6 +120,7 @@ fn story() -> Vec<Input> {
 /// A recording as it is written without a recorder, so that it may hold anything.
 struct ByHand {
     writer: LogWriter<Vec<u8>>,
+    meta: Meta,
     chain: Chain,
     world: World,
     order: u64,
@@ -126,26 +129,14 @@ struct ByHand {
     at: Stamp,
 }
 
-type Map = BTreeMap<String, String>;
-
-fn map<const N: usize>(fields: [(&str, String); N]) -> Map {
-    fields.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
-}
-
 impl ByHand {
     fn new() -> Self {
         let mut writer = LogWriter::new(Vec::new(), LogOptions::default()).unwrap();
-        let genesis: Link = StateHash([0; 32]);
-        let meta = map([
-            ("format_version", "1".to_owned()),
-            ("program", "scenefold 0.1.0".to_owned()),
-            ("config", Config::default().to_json()),
-            ("first_order", "1".to_owned()),
-            ("chain", genesis.to_string()),
-        ]);
-        writer.write_metadata("scenefold", meta).unwrap();
-        let (world, chain) = (World::default(), Chain::after(genesis));
-        Self { writer, chain, world, order: 0, changes: 0, primitives: 0, at: START }
+        let meta = Meta::new(Config::default(), 1, StateHash([0; 32]));
+        let (name, map) = meta.record();
+        writer.write_metadata(name, map).unwrap();
+        let (world, chain) = (World::default(), Chain::after(meta.first_link()));
+        Self { writer, meta, chain, world, order: 0, changes: 0, primitives: 0, at: START }
     }
 
     fn write(&mut self, logged: &Logged) {
@@ -210,14 +201,16 @@ impl ByHand {
 
     fn finish(mut self) -> Vec<u8> {
         self.writer.flush().unwrap();
-        let seal = map([
-            ("events", self.order.to_string()),
-            ("changes", self.changes.to_string()),
-            ("primitives", self.primitives.to_string()),
-            ("chain", self.chain.link().to_string()),
-            ("state_hash", self.world.graph().hash().to_string()),
-        ]);
-        self.writer.write_metadata("scenefold.end", seal).unwrap();
+        let ending = Ending {
+            events: self.order,
+            changes: self.changes,
+            primitives: self.primitives,
+            link: self.chain.link(),
+            state_hash: self.world.graph().hash(),
+            meta: &self.meta,
+        };
+        let (name, map) = ending.seal().record();
+        self.writer.write_metadata(name, map).unwrap();
         self.writer.finish().unwrap()
     }
 }
@@ -243,7 +236,7 @@ fn spec(topic: &Topic, encoding: &str, schema: SchemaSpec, class: ChunkClass) ->
     ChannelSpec {
         topic: topic.name().into_owned(),
         message_encoding: encoding.to_owned(),
-        metadata: map([("scenefold.class", word.to_owned())]),
+        metadata: BTreeMap::from([("scenefold.class".to_owned(), word.to_owned())]),
         schema: Some(schema),
         class,
     }

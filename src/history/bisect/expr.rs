@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::graph::{Label, NodeId};
+use crate::change::World;
+use crate::graph::{Label, Layer, NodeId};
 
 /// A condition on a world at a moment. See the module docs for its text form.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +54,36 @@ impl Who {
         match self {
             Self::Id(own) => *own == id,
             Self::Label(text) => label.same_class(text),
+        }
+    }
+}
+
+impl Expr {
+    /// The names in it that nothing in `world` answers to, there or gone.
+    pub fn unknown_names(&self, world: &World) -> Vec<&Who> {
+        let graph = world.graph();
+        let objects = graph.all_objects().chain(world.all_departed()).map(|(id, o)| (id, &o.label));
+        let regions = Layer::ALL.into_iter().flat_map(|layer| graph.regions(layer));
+        let known: Vec<(NodeId, &Label)> =
+            objects.chain(regions.map(|(id, region)| (id, &region.label))).collect();
+        let mut names = self.names();
+        names.retain(|who| !known.iter().any(|(id, label)| who.means(*id, label)));
+        names
+    }
+
+    fn names(&self) -> Vec<&Who> {
+        match self {
+            Self::Not(inner) => inner.names(),
+            Self::All(parts) | Self::Any(parts) => parts.iter().flat_map(Self::names).collect(),
+            Self::Test(test) => match test {
+                Test::Present(who)
+                | Test::Absent(who)
+                | Test::Held(who)
+                | Test::Count(who, _)
+                | Test::Probability(who, _) => vec![who],
+                Test::In(who, place) | Test::On(who, place) => vec![who, place],
+                Test::Tally(..) => vec![],
+            },
         }
     }
 }

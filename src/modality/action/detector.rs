@@ -81,12 +81,12 @@ impl Report<'_, '_> {
             return false;
         }
         let grasp = match self.desk.claim(claim) {
-            Ok(NodeRef { id: Some(id), .. }) => Grasp::Known(id),
-            Err(Rejection::Ambiguous { candidates, .. }) => Grasp::Ambiguous(candidates),
-            Err(
+            Ok(NodeRef { id: Some(id), .. })
+            | Err(
                 Rejection::AlreadyHeld { object: NodeRef { id: Some(id), .. } }
                 | Rejection::AlreadyAbsent { object: NodeRef { id: Some(id), .. } },
             ) => Grasp::Known(id),
+            Err(Rejection::Ambiguous { candidates, .. }) => Grasp::Ambiguous(candidates),
             Err(Rejection::Contradiction { .. }) => return false,
             Ok(_) | Err(_) => Grasp::Unknown(object),
         };

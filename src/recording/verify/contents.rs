@@ -15,7 +15,6 @@ use crate::updater::Config;
 impl Check<'_> {
     pub(super) fn contents(&mut self, progress: &mut dyn FnMut(u64)) {
         for (n, segment) in self.recording.segments.iter().enumerate() {
-            self.segment = n;
             self.begin(n, segment);
             let filter = MessageFilter::default();
             let mut cursor = segment.log.messages(filter);
@@ -96,16 +95,19 @@ impl Check<'_> {
     /// Something is missing after the last event; a recovered recording may have told so.
     fn gap(&mut self, segment: &Segment, what: String) {
         self.broken = true;
-        self.again = None;
+        self.compare_derived(segment);
         if self.gaps.contains(&self.order) {
             return;
         }
         self.miss();
-        let damaged = self.findings.iter().any(|f| f.status == Status::Corrupt)
+        self.find(self.blame(), segment, what);
+    }
+
+    /// Missing events without any damage were cut out on purpose.
+    fn blame(&self) -> Status {
+        let damaged = self.findings.iter().any(|finding| finding.status == Status::Corrupt)
             || !self.recording.trouble().is_empty();
-        // Missing events without any damage were cut out on purpose.
-        let status = if damaged { Status::Corrupt } else { Status::Tampered };
-        self.find(status, segment, what);
+        if damaged { Status::Corrupt } else { Status::Tampered }
     }
 
     fn miss(&mut self) {
@@ -144,10 +146,10 @@ impl Check<'_> {
                 return self.find(Status::Corrupt, segment, what);
             }
         };
-        if self.broken {
+        if self.broken || checkpoint.order > self.order {
             return self.mend(segment, &checkpoint);
         }
-        if checkpoint.order != self.order {
+        if checkpoint.order < self.order {
             let (says, stands) = (checkpoint.order, self.order);
             let what = format!("a checkpoint after event #{stands} says it stands after #{says}");
             return self.find(Status::Tampered, segment, what);
@@ -159,7 +161,7 @@ impl Check<'_> {
     fn compare_link(&mut self, segment: &Segment, checkpoint: &Checkpoint) {
         if self.chain.close() == checkpoint.chain {
             self.checkpoints += 1;
-        } else if self.damaged {
+        } else if self.blame() == Status::Corrupt {
             // A link was made at a checkpoint that cannot be read.
             self.ever_lost = true;
             self.chain = Chain::after(checkpoint.chain);
@@ -174,6 +176,10 @@ impl Check<'_> {
         let order = checkpoint.order;
         if self.world.graph().hash() != checkpoint.state_hash {
             let what = format!("the fold does not give the state of the checkpoint after #{order}");
+            self.find(Status::Nondeterministic, segment, what);
+        }
+        if checkpoint.changes != self.changes {
+            let what = format!("the checkpoint after #{order} counts other changes");
             self.find(Status::Nondeterministic, segment, what);
         }
         let again = self.again.as_ref().filter(|again| again.different() == 0);
@@ -242,7 +248,7 @@ impl Check<'_> {
         if stored.events != found.events {
             let (should, does) = (stored.events, found.events);
             let what = format!("it should end with event #{should}, but ends with #{does}");
-            let status = if self.ever_lost { Status::Corrupt } else { Status::Tampered };
+            let status = self.blame();
             return self.find(status, segment, what);
         }
         if self.lost || self.ever_lost {

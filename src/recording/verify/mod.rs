@@ -109,18 +109,16 @@ struct Check<'r> {
     order: u64,
     events: u64,
     checkpoints: u64,
+    reprocessed: u64,
     /// Something before here is missing: states cannot be compared until a checkpoint.
     broken: bool,
     /// Something is missing that the recording does not know of: links cannot be compared.
     lost: bool,
     ever_lost: bool,
-    /// Some chunk cannot be read.
-    damaged: bool,
     changes: u64,
     primitives: u64,
     /// Where the last segment ended.
     ended: Option<Link>,
-    segment: usize,
     gaps: Vec<u64>,
 }
 
@@ -138,14 +136,13 @@ impl<'r> Check<'r> {
             order: 0,
             events: 0,
             checkpoints: 0,
+            reprocessed: 0,
             broken: false,
             lost: false,
             ever_lost: false,
-            damaged: false,
             changes: 0,
             primitives: 0,
             ended: None,
-            segment: 0,
             gaps: gaps.flat_map(|meta| meta.gaps.clone()).collect(),
         }
     }
@@ -158,19 +155,21 @@ impl<'r> Check<'r> {
         }
     }
 
-    pub(super) fn verdict(mut self) -> Verified {
-        let mut reprocessed = 0;
-        if let Some(again) = self.again.take() {
-            let result = again.finish();
-            reprocessed = result.inputs - result.different;
-            for difference in result.differences.iter().take(20) {
-                let what = format!(
-                    "the detectors derive something else now from event #{}",
-                    difference.order
-                );
-                let segment = &self.recording.segments[self.segment];
-                self.find(Status::Nondeterministic, segment, what);
-            }
+    /// Ends a stretch over which the detectors ran again, and notes what they said differently.
+    pub(super) fn compare_derived(&mut self, segment: &Segment) {
+        let Some(again) = self.again.take() else { return };
+        let result = again.finish();
+        self.reprocessed += result.inputs - result.different;
+        for difference in result.differences.iter().take(20) {
+            let order = difference.order;
+            let what = format!("the detectors derive something else now from event #{order}");
+            self.find(Status::Nondeterministic, segment, what);
+        }
+    }
+
+    fn verdict(mut self) -> Verified {
+        if let Some(segment) = self.recording.segments.last() {
+            self.compare_derived(segment);
         }
         let worst = self.findings.iter().map(|finding| finding.status).max();
         Verified {
@@ -179,7 +178,7 @@ impl<'r> Check<'r> {
             chain: self.ended.filter(|_| !self.ever_lost),
             events: self.events,
             checkpoints: self.checkpoints,
-            reprocessed,
+            reprocessed: self.reprocessed,
             findings: self.findings,
             gaps: self.gaps,
         }

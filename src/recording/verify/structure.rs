@@ -41,10 +41,14 @@ impl Check<'_> {
     /// Other programs seek by message indexes, so they are looked at though nothing here is.
     fn indexes(&mut self, segment: &Segment) {
         let mut buffer = ChunkBuffer::new();
-        for entry in segment.log.chunks() {
+        let chunks = segment.log.chunks();
+        for (n, entry) in chunks.iter().enumerate() {
             if let Err(damage) = segment.log.read_chunk_into(entry, &mut buffer) {
-                self.damaged = true;
                 self.find(Status::Corrupt, segment, damage.to_string());
+                continue;
+            }
+            // Where a file is torn, the indexes of its last chunk are as well.
+            if !segment.log.is_finished() && n + 1 == chunks.len() {
                 continue;
             }
             if let Err(damage) = segment.log.check_indexes(entry, &buffer) {

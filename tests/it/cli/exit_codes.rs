@@ -75,7 +75,6 @@ fn wrong_use_exits_with_2() {
         "recover REC",
         "snapshot",
         "snapshot REC REC",
-        "verify -",
         "import scene REC",
         "ingest",
     ] {

@@ -8,7 +8,7 @@ use super::{golden, on_recording, program, run};
 fn what_is_no_recording_is_said_to_be_none() {
     let folder = tempfile::tempdir().unwrap();
     let noise = folder.path().join("noise.mcap");
-    let bytes: Vec<u8> = (0..5000_u32).map(|n| (n * n >> 3) as u8).collect();
+    let bytes: Vec<u8> = (0..5000_u32).map(|n| ((n * n) >> 3) as u8).collect();
     fs::write(&noise, bytes).unwrap();
     let noise = noise.display().to_string();
     for args in [
@@ -59,12 +59,12 @@ fn what_is_there_is_never_overwritten() {
         vec!["import", "scene", &scene, "-o", &out],
         vec!["ingest", "-o", &out],
     ] {
-        run(&args).expect(1).says(&["exists", "there.mcap"]);
+        run(&args).expect(1).says(&["choose another name", "there.mcap"]);
         assert_eq!(fs::read_to_string(&there).unwrap(), "precious", "{args:?}");
     }
     let segments = folder.path().join("segments/").display().to_string();
     run(&["import", "scene", &scene, "-o", &segments]).expect(0);
-    run(&["import", "scene", &scene, "-o", &segments]).expect(1).says(&["already"]);
+    run(&["import", "scene", &scene, "-o", &segments]).expect(1).says(&["already", "choose"]);
     assert_eq!(fs::read_dir(&segments).unwrap().count(), 1);
 }
 
@@ -79,7 +79,6 @@ fn errors_name_the_value_and_what_would_do() {
     on_recording("bisect REC --when absent(mug").says(&["--when", "column", "`)`"]);
     on_recording("bisect REC --when flies(mug)").says(&["flies"]);
     on_recording("export REC --format svg").says(&["svg", "spark-dsg"]);
-    on_recording("verify -").says(&["give it a file"]);
     on_recording("snapshot REC REC").says(&["every_rejection.snap", "rename one"]);
 }
 

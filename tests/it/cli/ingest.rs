@@ -26,7 +26,7 @@ fn lines_are_answered_and_recorded() {
     let answers = ran.json_lines();
     assert_eq!(answers.len(), 3);
     for answer in &answers {
-        assert_eq!(keys(answer), "acknowledged changes order");
+        assert_eq!(keys(answer), "acknowledged at changes order");
     }
     // Everything that a line derives is safe when it is answered.
     assert_eq!(answers[0]["acknowledged"].as_u64(), Some(4));

@@ -134,7 +134,7 @@ fn recover_lists_what_is_lost() {
     let (bad, saved) = (damaged(folder.path()), folder.path().join("saved.mcap"));
     let (bad, saved) = (bad.display().to_string(), saved.display().to_string());
     let json = run(&["recover", &bad, "-o", &saved, "--json"]).expect(3).json();
-    assert_eq!(keys(&json), "damage lost messages_recovered");
+    assert_eq!(keys(&json), "damage edited_before lost messages_recovered");
     assert_eq!(keys(&every(&json, "lost")[0]), "first_event last_event");
     let info = run(&["info", &saved, "--json"]).expect(0).json();
     assert_eq!(info["messages"], json["messages_recovered"]);

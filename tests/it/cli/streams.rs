@@ -18,6 +18,7 @@ fn a_recording_is_read_from_standard_input() {
         "bisect REC --when absent(O4)",
         "export REC --format dot",
         "reprocess REC",
+        "verify REC",
     ] {
         let from_file = on_recording(line);
         let mut piped = program();

@@ -80,7 +80,7 @@ proptest! {
         let recording = Recording::open(&path).unwrap();
         prop_assert_eq!(events(&recording, Walk::Everything), written.clone());
         let mut again: Vec<Logged> = Vec::new();
-        let result = reprocess(&recording, Config::default(), &mut |_, events: &[Logged]| {
+        let result = reprocess(&recording, &Config::default(), &mut |_, events: &[Logged]| {
             again.extend_from_slice(events);
             Ok::<_, Infallible>(())
         });
