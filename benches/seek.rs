@@ -46,7 +46,7 @@ fn mean_seeks(recordings: &[Recording; 2], threads: usize) -> [Duration; 2] {
         let end = recording.end().expect("there are events").nanos();
         let events = recording.seal().expect("it was ended").events;
         let part = u128::from(dice.below(1 << 31));
-        let of = |whole: u64| (u128::from(whole) * part >> 31) as u64;
+        let of = |whole: u64| ((u128::from(whole) * part) >> 31) as u64;
         for at in [At::Event(1 + of(events - 1)), At::SinceStart(of(end - start))] {
             let began = Instant::now();
             let state = recording.state_at(at, threads).expect("the point is in the log");

@@ -22,10 +22,10 @@ pub fn open(path: &Path) -> LogFile {
 
 /// All zstd chunks of a log, which are those of events in the logs measured here.
 pub fn compressed(log: &LogFile) -> Vec<Compressed> {
-    log.chunks().iter().filter(is_zstd).map(|entry| read(log, entry)).collect()
+    log.chunks().iter().filter(|entry| is_zstd(entry)).map(|entry| read(log, entry)).collect()
 }
 
-fn is_zstd(entry: &&ChunkEntry) -> bool {
+fn is_zstd(entry: &ChunkEntry) -> bool {
     entry.compression == Compression::Zstd
 }
 

@@ -296,5 +296,7 @@ pub(super) fn read_evidence(field: &Field<'_>) -> Result<EvidenceRef, WireError>
         }
     }
     let order = required(Some(order).filter(|order| *order > 0), NAME, "order")?;
-    Ok(EvidenceRef { topic: required(topic, NAME, "topic")?, order })
+    // Protobuf cannot tell an empty text from none.
+    let topic = required(topic.filter(|topic| !topic.is_empty()), NAME, "topic")?;
+    Ok(EvidenceRef { topic, order })
 }

@@ -4,11 +4,11 @@ use proptest::prelude::*;
 use prost::Message;
 
 use crate::change::{Edit, Primitive};
-use crate::event::Event;
+use crate::event::{Event, Topic};
 use crate::testing;
 use crate::time::Stamp;
 use crate::wire::{
-    CHECKPOINT_PEEK, CheckpointHead, Labels, decode, decode_checkpoint, decode_edits,
+    CHECKPOINT_PEEK, CheckpointHead, Labels, WireError, decode, decode_checkpoint, decode_edits,
     decode_transaction, encode,
     encode_checkpoint, peek_checkpoint, proto, transaction,
 };
@@ -103,4 +103,12 @@ proptest! {
         prop_assert_eq!(peek_checkpoint(prefix), Ok(head));
         prop_assert_eq!(peek_checkpoint(&payload), Ok(head));
     }
+}
+
+/// Found by fuzzing: an empty topic was read and, written again, missing.
+#[test]
+fn a_reference_to_an_empty_topic_is_a_missing_one() {
+    let payload = [0x0a, 4, 0x0a, 0, 0x10, 6];
+    let missing = WireError::Missing { message: "EvidenceRef", field: "topic" };
+    assert_eq!(decode(&Topic::Interpretation, Stamp::EPOCH, &payload), Err(missing));
 }
