@@ -9,6 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use scenefold::recording::Recording;
+use scenefold::time::At;
 use serde_json::Value;
 
 use crate::golden;
@@ -23,7 +25,10 @@ fn has(modules: &str) -> bool {
     let found = interpreter().args(["-c", &format!("import {modules}")]).output();
     let found = found.is_ok_and(|output| output.status.success());
     // Where the packages were installed on purpose, missing ones are no excuse.
-    assert!(found || std::env::var_os("SCENEFOLD_PYTHON").is_none(), "{modules} cannot be imported");
+    assert!(
+        found || std::env::var_os("SCENEFOLD_PYTHON").is_none(),
+        "{modules} cannot be imported"
+    );
     if !found {
         eprintln!("no python with {modules} here: not tested");
     }
@@ -108,4 +113,26 @@ fn files_of_other_programs_are_counted_as_python_counts_them() {
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "mcap"));
     assert!(!paths.is_empty());
     paths.iter().for_each(|path| assert_same_counts(path));
+}
+
+#[test]
+fn the_spark_dsg_package_loads_what_is_exported() {
+    if !has("spark_dsg") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    for golden in golden::all() {
+        let exported = folder.path().join(format!("{}.json", golden.name));
+        let mut export = Command::new(env!("CARGO_BIN_EXE_scenefold"));
+        export.arg("export").arg(&golden.path).args(["--format", "spark-dsg", "-o"]).arg(&exported);
+        assert!(export.status().unwrap().success(), "{}", golden.name);
+        let theirs = script("load_spark_dsg.py", &[&exported]);
+        let state = Recording::open(&golden.path).unwrap().state_at(At::End, 1).unwrap();
+        let graph = state.graph();
+        let counted = |key: &str| theirs[key].as_u64().unwrap() as usize;
+        assert_eq!(counted("objects"), graph.objects().count(), "{}", golden.name);
+        assert_eq!(counted("rooms"), graph.rooms().count(), "{}", golden.name);
+        assert_eq!(counted("accesses"), graph.access().count(), "{}", golden.name);
+        assert_eq!(counted("objects_in_rooms"), graph.objects().count(), "{}", golden.name);
+    }
 }

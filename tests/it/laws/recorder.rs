@@ -1,13 +1,13 @@
 //! Laws of the recorder: same inputs, same bytes; stops change nothing; a torn file is a prefix.
 
 use proptest::prelude::*;
-use scenefold::event::{Event, Logged};
+use scenefold::event::Logged;
 use scenefold::recording::{Recorder, RecorderOptions, Recording, Status, Walk, recover, verify};
 use scenefold::time::At;
 use scenefold::updater::Config;
 
 use super::cases;
-use crate::house::{Input, MANY_CHECKPOINTS, events, feed, inputs, record};
+use crate::house::{MANY_CHECKPOINTS, events, feed, inputs, record};
 
 proptest! {
     #![proptest_config(cases(40))]
