@@ -5,14 +5,16 @@ use std::collections::BTreeMap;
 use super::World;
 use crate::bytes::{Reader, Writer};
 use crate::graph::{
-    CanonicalError, Label, Layer, NodeId, SceneGraph, read_object_bytes, write_object_bytes,
+    CanonicalError, Label, Layer, NodeId, SceneGraph, StateHash, read_object_bytes,
+    write_object_bytes,
 };
 
 impl World {
     /// Appends the bytes of this world: the canonical bytes of the graph, then the objects that
-    /// left it, then the next index of each layer.
-    pub(crate) fn write_bytes(&self, out: &mut Writer) {
-        out.bytes(&self.graph.to_bytes());
+    /// left it, then the next index of each layer. Returns the hash of the graph.
+    pub(crate) fn write_bytes(&self, out: &mut Writer) -> StateHash {
+        let graph = self.graph.to_bytes();
+        out.bytes(&graph);
         out.u64(self.departed.len() as u64);
         for (id, object) in &self.departed {
             out.u64(id.index().into());
@@ -20,6 +22,7 @@ impl World {
             write_object_bytes(out, object);
         }
         self.next.iter().for_each(|next| out.u64((*next).into()));
+        StateHash::of(&graph)
     }
 
     /// The world whose bytes come next in `input`.

@@ -55,13 +55,13 @@ pub enum CheckpointError {
 impl Checkpoint {
     /// The state of `updater` now. The chain is filled in when it is written.
     pub fn of(updater: &Updater) -> Self {
-        let state = updater.to_bytes();
+        let (state, state_hash) = updater.to_bytes_and_hash();
         Self {
             order: updater.order(),
             changes: updater.changes(),
             at: updater.at(),
             chain: GENESIS,
-            state_hash: updater.graph().hash(),
+            state_hash,
             memory_hash: StateHash::of(&state),
             state,
         }

@@ -3,7 +3,7 @@
 use super::{Config, Updater};
 use crate::bytes::{Reader, Writer};
 use crate::change::World;
-use crate::graph::CanonicalError;
+use crate::graph::{CanonicalError, StateHash};
 use crate::modality::action::ActionDetector;
 use crate::time::Stamp;
 
@@ -27,14 +27,19 @@ pub enum RestoreError {
 impl Updater {
     /// Everything but the configuration, as bytes. Equal states have equal bytes.
     pub fn to_bytes(&self) -> Vec<u8> {
+        self.to_bytes_and_hash().0
+    }
+
+    /// [`Updater::to_bytes`], and the hash of the graph, which costs little beside them.
+    pub fn to_bytes_and_hash(&self) -> (Vec<u8>, StateHash) {
         let mut out = Writer::default();
         out.u64(STATE_VERSION);
         out.u64(self.order);
         out.u64(self.changes);
         out.u64(self.at.nanos());
-        self.world.write_bytes(&mut out);
+        let hash = self.world.write_bytes(&mut out);
         self.action.write_bytes(&mut out);
-        out.0
+        (out.0, hash)
     }
 
     /// The updater with these bytes, going on under `config`.
