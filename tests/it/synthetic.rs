@@ -154,13 +154,10 @@ impl ByHand {
             }
             event => (own(&topic), wire::encode(event)),
         };
-        let class = spec.class;
         let channel = self.writer.register(spec).unwrap();
         let (time, published) = (logged.at.nanos(), logged.published.nanos());
         self.writer.write(channel, logged.order as u32, time, published, &data).unwrap();
-        if class == ChunkClass::Event {
-            self.chain.add(&topic.name(), logged.order, time, published, &data);
-        }
+        self.chain.add(&topic.name(), logged.order, time, published, &data);
         self.note(logged);
     }
 
