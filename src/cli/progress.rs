@@ -6,7 +6,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::event::Logged;
-use crate::history::EventLog;
+use crate::history::{EventLog, FoldError};
 
 /// A bar over a known number of steps.
 pub fn bar(what: &'static str, steps: u64) -> ProgressBar {
@@ -51,6 +51,10 @@ impl<L: EventLog> EventLog for Counted<'_, L> {
             self.bar.inc(1);
             visitor(logged)
         })
+    }
+
+    fn refused(&self, error: &FoldError) -> bool {
+        self.log.refused(error)
     }
 }
 

@@ -18,6 +18,12 @@ pub trait EventLog {
         last: u64,
         visitor: &mut dyn FnMut(&Logged) -> ControlFlow<()>,
     ) -> Result<(), Self::Error>;
+
+    /// Told of a transaction that the graph refuses; says whether to go on without it, as one
+    /// does with a log that is known to be damaged.
+    fn refused(&self, _: &FoldError) -> bool {
+        false
+    }
 }
 
 /// A log in memory, in order.
@@ -65,6 +71,18 @@ pub fn advance(world: &mut World, logged: &Logged) -> Result<bool, FoldError> {
         _ => return Ok(false),
     }
     Ok(true)
+}
+
+/// As [`advance`]; a transaction that is refused is passed over if the log says so.
+pub(super) fn advance_in<L: EventLog>(
+    log: &L,
+    world: &mut World,
+    logged: &Logged,
+) -> Result<bool, FoldError> {
+    match advance(world, logged) {
+        Err(error) if log.refused(&error) => Ok(false),
+        advanced => advanced,
+    }
 }
 
 /// Walks `log` from its start to event `upto` with a world that the visitor advances; returns the

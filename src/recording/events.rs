@@ -7,7 +7,7 @@ use super::open::{Recording, Segment};
 use super::orphans::Orphans;
 use crate::container::{LogError, MessageFilter, RawMessage};
 use crate::event::{Event, Logged, SensorMessage, Topic};
-use crate::history::EventLog;
+use crate::history::{EventLog, FoldError};
 use crate::time::Stamp;
 use crate::wire;
 
@@ -157,6 +157,13 @@ impl EventLog for Recording {
         visitor: &mut dyn FnMut(&Logged) -> ControlFlow<()>,
     ) -> Result<(), WalkError> {
         self.visit_events(Walk::Events, (first, last), visitor)
+    }
+
+    fn refused(&self, error: &FoldError) -> bool {
+        if let Some(segment) = self.segments.last() {
+            self.report(segment, error);
+        }
+        true
     }
 }
 

@@ -161,6 +161,15 @@ impl Again {
         Ok(())
     }
 
+    /// Forgets the last input if what it derives may have been lost: at a gap.
+    pub fn forget_unfinished(&mut self) {
+        let Some((_, events)) = &self.current else { return };
+        let (recorded, now) = (self.recorded.len(), events.len() - 1);
+        if recorded < now {
+            self.current = None;
+        }
+    }
+
     /// What the last input derives but the log does not hold, if it holds nothing of it.
     pub fn missing_tail(&self) -> Vec<Logged> {
         let Some((_, events)) = &self.current else { return Vec::new() };

@@ -119,7 +119,11 @@ pub fn first_holding<L: EventLog>(
     let mut search = Search { watch: Watch::new(expr), change: None };
     let mut first = None;
     let world = walk(log, u64::MAX, BisectError::Log, |world, logged| {
-        if !search.step(world, logged)? {
+        let holds = match search.step(world, logged) {
+            Err(error) if log.refused(&error) => false,
+            step => step?,
+        };
+        if !holds {
             return Ok::<_, BisectError<L::Error>>(ControlFlow::Continue(()));
         }
         first = Some((logged.order, logged.at));

@@ -9,7 +9,8 @@ use crate::change::{Cause, ChangeRecord, NodeRef, Primitive, Step, Transaction, 
 use crate::event::{Event, Logged};
 use crate::graph::{Label, NodeId};
 use crate::history::log::walk;
-use crate::history::{EventLog, Place, advance};
+use crate::history::log::advance_in;
+use crate::history::{EventLog, Place};
 
 /// How many of the last changes are kept for the transaction that follows them.
 const RECENT_CHANGES: usize = 1024;
@@ -28,14 +29,14 @@ pub(super) fn collect<L: EventLog>(
             Event::Transaction(transaction) => {
                 let concerned = transaction.steps.iter().any(|it| touches(&it.primitive, id));
                 let before = concerned.then(|| Snapshot::of(world, id));
-                advance(world, logged)?;
-                if let Some(before) = before {
+                let applied = advance_in(log, world, logged)?;
+                if let Some(before) = before.filter(|_| applied) {
                     life.transaction(&before, world, logged, transaction);
                 }
                 life.recent.clear();
             }
             Event::InitialGraph(_) => {
-                advance(world, logged)?;
+                advance_in(log, world, logged)?;
                 life.start(world, logged);
             }
             _ => {}

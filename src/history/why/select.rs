@@ -10,7 +10,8 @@ use crate::event::Event;
 use crate::graph::{Label, Layer, Node, NodeId, SceneGraph};
 use crate::history::log::walk;
 use crate::history::place::named;
-use crate::history::{EventLog, Place, advance};
+use crate::history::log::advance_in;
+use crate::history::{EventLog, Place};
 
 /// Names a node.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -94,7 +95,7 @@ pub(super) fn select<L: EventLog>(
     };
     let mut census = Census { label, nodes: BTreeMap::new(), labels: BTreeSet::new() };
     let world = walk(log, upto, WhyError::Log, |world, logged| {
-        advance(world, logged)?;
+        advance_in(log, world, logged)?;
         match &logged.event {
             Event::InitialGraph(graph) => census.count_graph(graph),
             Event::Transaction(transaction) => {

@@ -100,6 +100,9 @@ impl Check<'_> {
     /// Something is missing after the last event; a recovered recording may have told so.
     fn gap(&mut self, segment: &Segment, what: String) {
         self.broken = true;
+        if let Some(again) = &mut self.again {
+            again.forget_unfinished();
+        }
         self.compare_derived(segment);
         if self.gaps.contains(&self.order) {
             return;
@@ -200,7 +203,7 @@ impl Check<'_> {
         if checkpoint.order > self.order {
             let (first, last) = (self.order + 1, checkpoint.order);
             self.gap(segment, format!("events #{first} to #{last} are missing"));
-            self.order = last;
+            (self.order, self.changes) = (last, checkpoint.changes);
         }
         let config = segment.meta.as_ref().map_or_else(Config::default, |m| m.config.clone());
         match (checkpoint.world(), checkpoint.updater(config)) {
