@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds="${1:-60}"
 command -v cargo-fuzz >/dev/null || cargo install cargo-fuzz --locked --quiet
-cargo run --quiet --release --example fuzz_seeds -- recordings fuzz/corpus
+SCENEFOLD_FUZZ_SEEDS="$PWD/fuzz/corpus" cargo test --quiet --test it fuzz_seeds
 for target in reader wire importers updater_bytes expr_at; do
   echo "-- $target"
   cargo fuzz run --sanitizer none "$target" -- -max_total_time="$seconds" -timeout=10 \

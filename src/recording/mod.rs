@@ -6,8 +6,8 @@
 //! - [`Recorder`] takes inputs, runs them through the [`crate::updater::Updater`] and writes
 //!   what comes out, with checkpoints, a hash chain and acknowledgements.
 //! - [`Recording`] opens one; [`Recording::state_at`] gives any past state,
-//!   [`Recording::visit`] any past event.
-//! - [`verify`] says what is wrong with one, [`recover`] saves what is intact, [`reprocess`]
+//!   [`Recording::visit_events`] any past event.
+//! - [`verify()`] says what is wrong with one, [`recover()`] saves what is intact, [`reprocess()`]
 //!   runs the detectors again.
 //!
 //! Invariant: log time never decreases along a recording, and (log time, position in the file)

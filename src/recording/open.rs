@@ -146,7 +146,7 @@ impl Recording {
     }
 
     /// What is known to be wrong with it so far, a line each. Damage inside chunks is met only
-    /// when they are read; [`super::verify`] reads them all.
+    /// when they are read; [`super::verify()`] reads them all.
     pub fn trouble(&self) -> Vec<String> {
         self.lock().iter().cloned().collect()
     }

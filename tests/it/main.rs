@@ -7,6 +7,8 @@
 //! - `mutations`, `forged`: damaged and edited files.
 //! - `cli`: the program at its boundary.
 //! - `python`: other readers agree.
+//! - `readme`: the front door tells the truth.
+//! - `fuzz_seeds`: what fuzzing starts from.
 //! - `tidy`: the shape of the sources.
 
 // Tests are read far more often than they run.
@@ -14,6 +16,7 @@
 
 mod cli;
 mod forged;
+mod fuzz_seeds;
 mod golden;
 mod house;
 mod kill;

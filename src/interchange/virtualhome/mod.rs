@@ -18,7 +18,7 @@
 //! highest. A door gives access between the rooms it is `BETWEEN`, or else between the two rooms
 //! whose boxes touch it.
 //!
-//! λ is [`MOVABLE_DECAY_RATE`](super::MOVABLE_DECAY_RATE) for what is `GRABBABLE` or `MOVABLE`,
+//! λ is [`MOVABLE_DECAY_RATE`] for what is `GRABBABLE` or `MOVABLE`,
 //! and 0 for the rest.
 
 mod doors;

@@ -1,16 +1,18 @@
-//! Writes the inputs that fuzzing starts from: recordings, payloads, states and texts that are
-//! valid. `cargo run --release --example fuzz_seeds -- RECORDINGS CORPUS`.
+//! The inputs that fuzzing starts from: recordings, payloads, states and texts that are valid.
+//! `SCENEFOLD_FUZZ_SEEDS=fuzz/corpus cargo test --test it fuzz_seeds` writes them.
 
 use std::error::Error;
 use std::fs;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use scenefold::event::{Event, Topic};
 use scenefold::recording::{Recording, Walk};
 use scenefold::time::At;
 use scenefold::updater::{Config, Updater};
 use scenefold::wire;
+
+use crate::golden;
 
 /// Larger seeds slow fuzzing down more than they help.
 const LARGEST: usize = 48 << 10;
@@ -31,8 +33,8 @@ const TEXTS: [&str; 16] = [
     "on(mug, table) or count(cup) > 2",
     "O17",
     "mug",
-    r#"{"topic":"/robot/task_status","task_id":"t","status":"picked","object":"O1"}"#,
-    r#"{"topic":"/human/utterance","speaker":"a","text":"b"}"#,
+    r#"{"at":"2026-01-05T08:00:00Z","topic":"/robot/task_status","message":{"task_id":"t","status":"placed","object":{"id":"O1","label":"mug"},"room":{"id":"R1"},"pose":{"position":[1,2,3]}}}"#,
+    r#"{"at":"2026-01-05T08:00:00Z","topic":"/human/utterance","message":{"speaker":"a","text":"b"}}"#,
 ];
 
 const IMPORTS: [(u8, &str); 4] = [
@@ -50,29 +52,29 @@ const IMPORTS: [(u8, &str); 4] = [
     ),
     (
         3,
-        "split,day,minute,object_id,object,from_id,from,to_id,to\ntrain,0,1,2,cup,3,table,4,sink\n",
+        "split,day,minute,action,object,object_id,destination,destination_id\n\
+         train,0,1.5,grab,cup,2,,\ntrain,0,2,putback,cup,2,sink,4\n",
     ),
 ];
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let (Some(recordings), Some(corpus)) = (arguments.next(), arguments.next()) else {
-        return Err("usage: fuzz_seeds RECORDINGS CORPUS".into());
-    };
-    let corpus = Path::new(&corpus);
-    for entry in fs::read_dir(recordings)? {
-        let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "mcap") {
-            of_recording(&path, corpus)?;
-        }
+#[test]
+fn what_fuzzing_starts_from_can_be_made() {
+    let scratch = tempfile::tempdir().unwrap();
+    let asked = std::env::var_os("SCENEFOLD_FUZZ_SEEDS").map(PathBuf::from);
+    let corpus = asked.unwrap_or(scratch.path().to_owned());
+    for golden in golden::all() {
+        of_recording(&golden.path, &corpus).unwrap();
     }
     for (n, text) in TEXTS.iter().enumerate() {
-        put(corpus, "expr_at", &n.to_string(), text.as_bytes())?;
+        put(&corpus, "expr_at", &n.to_string(), text.as_bytes()).unwrap();
     }
     for (format, text) in IMPORTS {
-        put(corpus, "importers", &format.to_string(), &[&[format], text.as_bytes()].concat())?;
+        let bytes = [&[format], text.as_bytes()].concat();
+        put(&corpus, "importers", &format.to_string(), &bytes).unwrap();
     }
-    Ok(())
+    for target in ["reader", "wire", "importers", "updater_bytes", "expr_at"] {
+        assert!(fs::read_dir(corpus.join(target)).unwrap().next().is_some(), "{target}");
+    }
 }
 
 fn of_recording(path: &Path, corpus: &Path) -> Result<(), Box<dyn Error>> {
