@@ -1,5 +1,6 @@
 //! [`Recorder`]: inputs in, a recording out, each update acknowledged once it is safe.
 
+use std::fs::{File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -9,7 +10,7 @@ use super::checkpoint::Checkpoint;
 use super::meta::{Meta, Seal};
 use super::open::{OpenError, Recording};
 use super::resume::End;
-use super::segment::next_segment;
+use super::segment::{next_segment, segment_files};
 use super::sink::Sink;
 use crate::container::WriteError;
 use crate::event::{Event, Logged};
@@ -56,6 +57,12 @@ pub enum RecordError {
         path: PathBuf,
         /// What it said.
         error: io::Error,
+    },
+    /// Two recorders would give the same numbers to different events.
+    #[error("another recorder is writing to this recording; wait until it has ended\n  {}", .path.display())]
+    InUse {
+        /// Which segment it writes.
+        path: PathBuf,
     },
     /// Recordings are never overwritten.
     #[error("there is something already; choose another name, or remove it first\n  {}", .path.display())]
@@ -164,6 +171,7 @@ impl Recorder {
         if !path.is_dir() {
             return Err(RecordError::NotAFolder { path: path.to_owned() });
         }
+        check_not_in_use(path)?;
         let recording = Recording::open(path)?;
         let End { updater, chain, missing } = recording.resume().map_err(|what| {
             RecordError::Damaged { path: path.to_owned(), what: what.to_string() }
@@ -236,6 +244,18 @@ impl Recorder {
             self.counted = self.sink.event_bytes();
         }
         Ok(())
+    }
+}
+
+/// A recorder holds a lock on its segment, which goes when its process does.
+fn check_not_in_use(folder: &Path) -> Result<(), RecordError> {
+    let segments = segment_files(folder).map_err(|error| io_error(folder, error))?;
+    let Some(last) = segments.last() else { return Ok(()) };
+    let file = File::open(last).map_err(|error| io_error(last, error))?;
+    match file.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(RecordError::InUse { path: last.clone() }),
+        // Where files cannot be locked, nobody can tell.
+        _ => Ok(()),
     }
 }
 

@@ -56,6 +56,8 @@ impl Sink {
     ) -> Result<Self, RecordError> {
         let failed = |error: io::Error| RecordError::io(path, error);
         let file = OpenOptions::new().write(true).create_new(true).open(path).map_err(failed)?;
+        // Tells other recorders that this segment is being written; see `Recorder::append`.
+        let _ = file.try_lock();
         if options.sync != SyncPolicy::Never {
             sync_folder(path).map_err(failed)?;
         }

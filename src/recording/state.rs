@@ -143,6 +143,8 @@ struct Fold<'r> {
     uncertain: Option<String>,
     /// Some event numbers are those of pictures, which the fold passes over.
     has_sensors: bool,
+    /// Numbers of events after which some are known to be missing.
+    gaps: Vec<u64>,
 }
 
 impl<'r> Fold<'r> {
@@ -150,7 +152,20 @@ impl<'r> Fold<'r> {
         let (world, time) = (World::default(), recording.start().unwrap_or_default());
         let (order, segment, offset, uncertain) = (0, 0, 0, None);
         let has_sensors = recording.segments.iter().any(|segment| !segment.sensors.is_empty());
-        Self { recording, point, world, order, time, segment, offset, uncertain, has_sensors }
+        let metas = recording.segments.iter().filter_map(|segment| segment.meta.as_ref());
+        let gaps = metas.flat_map(|meta| meta.gaps.iter().copied()).collect();
+        Self {
+            recording,
+            point,
+            world,
+            order,
+            time,
+            segment,
+            offset,
+            uncertain,
+            has_sensors,
+            gaps,
+        }
     }
 
     /// Starts from the last checkpoint before the point that can be used.
@@ -162,7 +177,6 @@ impl<'r> Fold<'r> {
                 break;
             }
         }
-        self.note_gaps();
     }
 
     fn load(&mut self, at: &CheckpointRef) -> bool {
@@ -182,17 +196,6 @@ impl<'r> Fold<'r> {
                 let what = format_args!("checkpoint after event #{} is not used: {why}", at.order);
                 self.recording.report(segment, what);
                 false
-            }
-        }
-    }
-
-    /// A recovered recording knows where events are missing.
-    fn note_gaps(&mut self) {
-        let metas = self.recording.segments.iter().filter_map(|segment| segment.meta.as_ref());
-        for gap in metas.flat_map(|meta| &meta.gaps) {
-            if *gap >= self.order && *gap < self.point.last_order {
-                let why = format!("events after #{gap} are missing from this recovered recording");
-                self.uncertain.get_or_insert(why);
             }
         }
     }
@@ -255,11 +258,17 @@ impl<'r> Fold<'r> {
         Flow::More
     }
 
-    /// Where there is nothing but events, their numbers go up by one.
+    /// Where there is nothing but events, their numbers go up by one; a recovered recording knows
+    /// where some are missing.
     fn check_next(&mut self, segment: &Segment, order: u64) {
         let expected = self.order + 1;
-        if order != expected && !self.has_sensors {
-            let what = format!("events #{expected} to #{} are missing", order - 1);
+        if order == expected {
+            return;
+        }
+        let what = format!("events #{expected} to #{} are missing", order - 1);
+        if self.gaps.iter().any(|gap| (self.order..order).contains(gap)) {
+            self.uncertain.get_or_insert(what);
+        } else if !self.has_sensors {
             self.doubt(segment, what);
         }
     }
@@ -303,8 +312,12 @@ impl<'r> Fold<'r> {
         })
     }
 
-    fn state(self) -> State {
+    fn state(mut self) -> State {
         let at = self.point.moment.unwrap_or(self.time);
+        if at > self.time && self.gaps.contains(&self.order) {
+            let what = format!("events after #{} are missing", self.order);
+            self.uncertain.get_or_insert(what);
+        }
         State { world: self.world, order: self.order, at, uncertain: self.uncertain }
     }
 }

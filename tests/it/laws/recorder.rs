@@ -1,13 +1,18 @@
 //! Laws of the recorder: same inputs, same bytes; stops change nothing; a torn file is a prefix.
 
 use proptest::prelude::*;
-use scenefold::event::Logged;
-use scenefold::recording::{Recorder, RecorderOptions, Recording, Status, Walk, recover, verify};
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
+use scenefold::container::{Compression, Limits, LogFile, Source};
+use scenefold::event::{Event, Logged};
+use scenefold::recording::{
+    LostEvents, Recorder, RecorderOptions, Recording, Status, Walk, recover, verify,
+};
 use scenefold::time::At;
 use scenefold::updater::Config;
 
 use super::cases;
-use crate::house::{MANY_CHECKPOINTS, events, feed, inputs, record};
+use crate::house::{MANY_CHECKPOINTS, START, house, events, feed, inputs, record};
 
 proptest! {
     #![proptest_config(cases(40))]
@@ -130,4 +135,55 @@ proptest! {
             prop_assert_eq!(state.world, expected.world);
         }
     }
+}
+
+#[test]
+fn a_recording_that_is_being_written_is_not_gone_on_with() {
+    let scratch = tempfile::tempdir().unwrap();
+    let folder = scratch.path().join("segments/");
+    let mut recorder = Recorder::create(&folder, Config::default(), &MANY_CHECKPOINTS).unwrap();
+    recorder.record(START, Event::InitialGraph(house())).unwrap();
+    let refused = Recorder::append(&folder, &MANY_CHECKPOINTS).err().unwrap().to_string();
+    assert!(refused.contains("another recorder"), "{refused}");
+    recorder.finish().unwrap();
+    assert_eq!(Recorder::append(&folder, &MANY_CHECKPOINTS).unwrap().updater().order(), 1);
+}
+
+/// Flips a byte in the middle of the chunk in the middle of the events.
+fn damage_the_middle(path: &std::path::Path) {
+    let mut bytes = std::fs::read(path).unwrap();
+    let source: std::sync::Arc<dyn Source> = std::sync::Arc::new(bytes.clone());
+    let log = LogFile::open(source, Limits::default()).unwrap();
+    let events: Vec<_> =
+        log.chunks().iter().filter(|entry| entry.compression == Compression::Zstd).collect();
+    let entry = events[events.len() / 2];
+    bytes[(entry.offset + entry.length * 2 / 3) as usize] ^= 0x55;
+    std::fs::write(path, bytes).unwrap();
+}
+
+#[test]
+fn a_recovered_recording_is_in_doubt_only_between_a_gap_and_the_next_checkpoint() {
+    let scratch = tempfile::tempdir().unwrap();
+    let (path, saved) = (scratch.path().join("a.mcap"), scratch.path().join("b.mcap"));
+    let mut runner = TestRunner::deterministic();
+    let inputs: Vec<_> = inputs(80..81)
+        .new_tree(&mut runner)
+        .unwrap()
+        .current()
+        .into_iter()
+        .filter(|(_, event)| !matches!(event, Event::Sensor(_)))
+        .collect();
+    record(&path, &inputs, &MANY_CHECKPOINTS, 5);
+    damage_the_middle(&path);
+    let lost = recover(&Recording::scan(&path).unwrap(), &saved, &mut |_| ()).unwrap().events;
+    let [LostEvents { first, last: Some(last) }] = lost[..] else { panic!("{lost:?}") };
+    let saved = Recording::open(&saved).unwrap();
+    let doubt = |order| saved.state_at(At::Event(order), 1).map(|state| state.uncertain);
+    assert_eq!(doubt(first - 1).unwrap(), None);
+    assert!(doubt(first).is_err());
+    assert_eq!(saved.state_at(At::End, 1).unwrap().uncertain, None);
+    let whole = Recording::open(&path).unwrap();
+    assert_eq!(whole.state_at(At::End, 1).unwrap().uncertain, None);
+    // The checkpoint after the lost chunk stands right after it.
+    assert_eq!(doubt(last + 1).unwrap(), None);
 }
