@@ -154,18 +154,7 @@ impl<'r> Fold<'r> {
         let has_sensors = recording.segments.iter().any(|segment| !segment.sensors.is_empty());
         let metas = recording.segments.iter().filter_map(|segment| segment.meta.as_ref());
         let gaps = metas.flat_map(|meta| meta.gaps.iter().copied()).collect();
-        Self {
-            recording,
-            point,
-            world,
-            order,
-            time,
-            segment,
-            offset,
-            uncertain,
-            has_sensors,
-            gaps,
-        }
+        Self { recording, point, world, order, time, segment, offset, uncertain, has_sensors, gaps }
     }
 
     /// Starts from the last checkpoint before the point that can be used.

@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 
 use super::common::{
-    evidence, node_ref, optional_ref, pose, read_evidence, read_node_ref, read_pose, read_size,
-    read_stamp, size,
+    put_evidence, put_node_ref, put_pose, put_size, read_evidence, read_node_ref, read_pose,
+    read_size, read_stamp,
 };
 use super::fields::{Field, Fields, required};
+use super::put::Put;
 use super::{WireError, proto};
 use crate::change::{Action, ChangeRecord, Claim, Modality, NodeRef, Occurred, Outcome};
 use crate::time::Stamp;
@@ -16,32 +17,38 @@ pub const MAX_EVIDENCE: usize = 1 << 16;
 
 const NAME: &str = "ChangeRecord";
 
-pub(super) fn change_record(record: &ChangeRecord) -> proto::ChangeRecord {
-    let claim = &record.claim;
-    let (outcome, code, reason) = match &record.outcome {
-        Outcome::Applied => (proto::Outcome::Applied, "", ""),
-        Outcome::Rejected { code, reason } => (proto::Outcome::Rejected, &**code, &**reason),
-    };
-    proto::ChangeRecord {
-        seq: record.seq,
-        at_nanos: record.at.nanos(),
-        modality: modality(claim.modality).into(),
-        detector: claim.detector.to_string(),
-        action: action(claim.action).into(),
-        object: Some(node_ref(&claim.object)),
-        source_room: optional_ref(claim.source_room.as_ref()),
-        target_room: optional_ref(claim.target_room.as_ref()),
-        support: optional_ref(claim.support.as_ref()),
-        pose: claim.pose.as_ref().map(pose),
-        size: claim.size.map(size),
-        confidence: claim.confidence,
-        not_before_nanos: claim.occurred.not_before.map(Stamp::nanos),
-        not_after_nanos: claim.occurred.not_after.map(Stamp::nanos),
-        held: claim.held,
-        evidence: claim.evidence.iter().map(evidence).collect(),
-        outcome: outcome.into(),
-        reason_code: code.to_owned(),
-        reason: reason.to_owned(),
+/// Appends the payload of a change record.
+pub(super) fn put_change_record(record: &ChangeRecord, out: &mut Vec<u8>) {
+    let (claim, mut put) = (&record.claim, Put(out));
+    put.u64(1, record.seq);
+    put.fixed64(2, record.at.nanos());
+    put.u64(3, modality(claim.modality) as u64);
+    put.text(4, &claim.detector);
+    put.u64(5, action(claim.action) as u64);
+    put_node_ref(&mut put, 6, Some(&claim.object));
+    put_node_ref(&mut put, 7, claim.source_room.as_ref());
+    put_node_ref(&mut put, 8, claim.target_room.as_ref());
+    put_node_ref(&mut put, 9, claim.support.as_ref());
+    if let Some(pose) = &claim.pose {
+        put.message(10, |put| put_pose(put, pose));
+    }
+    if let Some(size) = claim.size {
+        put.message(11, |put| put_size(put, size));
+    }
+    put.double(12, claim.confidence);
+    put.optional_fixed64(13, claim.occurred.not_before.map(Stamp::nanos));
+    put.optional_fixed64(14, claim.occurred.not_after.map(Stamp::nanos));
+    put.u64(15, claim.held.into());
+    for reference in &claim.evidence {
+        put.message(16, |put| put_evidence(put, reference));
+    }
+    match &record.outcome {
+        Outcome::Applied => put.u64(17, proto::Outcome::Applied as u64),
+        Outcome::Rejected { code, reason } => {
+            put.u64(17, proto::Outcome::Rejected as u64);
+            put.text(18, code);
+            put.text(19, reason);
+        }
     }
 }
 

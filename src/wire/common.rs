@@ -3,6 +3,7 @@
 //! Each part has a function that makes the generated struct and one that reads and checks it.
 
 use super::fields::{Field, Fields, required};
+use super::put::Put;
 use super::{WireError, proto};
 use crate::change::{EvidenceRef, NodeRef};
 use crate::event::Topic;
@@ -299,4 +300,39 @@ pub(super) fn read_evidence(field: &Field<'_>) -> Result<EvidenceRef, WireError>
     // Protobuf cannot tell an empty text from none.
     let topic = required(topic.filter(|topic| !topic.is_empty()), NAME, "topic")?;
     Ok(EvidenceRef { topic, order })
+}
+
+/// Appends what [`pose`] makes.
+pub(super) fn put_pose(put: &mut Put<'_>, pose: &Pose) {
+    for (field, um) in (1..).zip(pose.position_um()) {
+        put.sint(field, um);
+    }
+    if pose.orientation_e7() != IDENTITY {
+        for (field, step) in (4..).zip(pose.orientation_e7()) {
+            put.sint(field, step.into());
+        }
+    }
+}
+
+/// Appends what [`size`] makes.
+pub(super) fn put_size(put: &mut Put<'_>, size: Size) {
+    for (field, um) in (1..).zip(size.micrometres()) {
+        put.u64(field, um.unsigned_abs());
+    }
+}
+
+/// Appends what [`node_ref`] makes.
+pub(super) fn put_node_ref(put: &mut Put<'_>, field: u64, reference: Option<&NodeRef>) {
+    if let Some(reference) = reference {
+        put.message(field, |put| {
+            put.fixed64(1, reference.id.map_or(0, NodeId::bits));
+            put.text(2, reference.label.as_ref().map_or("", |label| label.as_str()));
+        });
+    }
+}
+
+/// Appends what [`evidence`] makes.
+pub(super) fn put_evidence(put: &mut Put<'_>, reference: &EvidenceRef) {
+    put.text(1, &reference.topic);
+    put.u64(2, reference.order);
 }

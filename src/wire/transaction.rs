@@ -4,13 +4,18 @@ mod read;
 
 pub use read::{MAX_TRANSACTION_ITEMS, decode_edits, decode_transaction};
 
-use super::common::{evidence, index, node, object, other_time, pose, pose_source, region, size};
+use super::common::{put_evidence, put_pose, evidence, index, node, object, other_time, pose, pose_source, region, size};
 use super::proto;
+use super::put::Put;
 use crate::change::{Cause, Departure, Primitive, Sighting, Transaction};
 use crate::graph::{Layer, Node, NodeId, Placement};
 use crate::time::Stamp;
-use proto::step::{Cause as WireCause, Primitive as WirePrimitive};
+#[cfg(test)]
+use proto::step::Cause as WireCause;
+use proto::step::Primitive as WirePrimitive;
 
+/// The generated struct of a transaction: what [`put_transaction`] must write the bytes of.
+#[cfg(test)]
 pub(super) fn transaction(transaction: &Transaction) -> proto::Transaction {
     let mut last = None;
     let steps = transaction.steps.iter().map(|step| {
@@ -20,6 +25,7 @@ pub(super) fn transaction(transaction: &Transaction) -> proto::Transaction {
     proto::Transaction { steps: steps.collect() }
 }
 
+#[cfg(test)]
 fn cause(cause: &Cause) -> WireCause {
     match cause {
         Cause::Change(seq) => WireCause::Change(*seq),
@@ -92,5 +98,55 @@ fn sighting(sighting: &Sighting) -> proto::Sighting {
         object: index(sighting.id, Layer::Object),
         pose: sighting.pose.as_ref().map(pose),
         size: sighting.size.map(size),
+    }
+}
+
+/// Appends the payload of a transaction. The edits that are nearly all there are, are written as
+/// they are; the others through their generated structs.
+pub(super) fn put_transaction(transaction: &Transaction, out: &mut Vec<u8>) {
+    let mut last = None;
+    for step in &transaction.steps {
+        Put(out).message(1, |put| {
+            if last.replace(&step.cause) != Some(&step.cause) {
+                put_cause(put, &step.cause);
+            }
+            put_primitive(put, &step.primitive, transaction.at);
+        });
+    }
+}
+
+fn put_cause(put: &mut Put<'_>, cause: &Cause) {
+    match cause {
+        Cause::Change(seq) => put.present_u64(1, *seq),
+        Cause::Evidence(reference) => put.message(2, |put| put_evidence(put, reference)),
+    }
+}
+
+fn put_primitive(put: &mut Put<'_>, primitive: &Primitive, at: Stamp) {
+    match primitive {
+        Primitive::Find { query, room, support, candidates, chosen, reason } => {
+            put.message(3, |put| {
+                put.text(1, query);
+                put.optional_u32(2, room.map(|id| index(id, Layer::Room)));
+                put.optional_u32(3, support.map(|id| index(id, Layer::Object)));
+                put.packed(4, candidates.iter().copied().map(node));
+                put.optional_u32(5, chosen.map(node));
+                put.text(6, reason);
+            });
+        }
+        Primitive::Remove { id, to, at: since } => put.message(5, |put| {
+            put.u64(1, node(*id).into());
+            put.u64(2, departure(*to) as u64);
+            put.optional_fixed64(3, other_time(*since, Some(at)));
+        }),
+        Primitive::Move { id, to } => put.message(6, |put| {
+            put.u64(1, index(*id, Layer::Object).into());
+            put.u64(2, index(to.room, Layer::Room).into());
+            put.optional_u32(3, to.support.map(|id| index(id, Layer::Object)));
+            put.message(4, |put| put_pose(put, &to.pose));
+            put.u64(5, pose_source(to.pose_source) as u64);
+            put.optional_fixed64(6, other_time(to.at, Some(at)));
+        }),
+        other => self::primitive(other, at).encode(put.0),
     }
 }

@@ -65,7 +65,15 @@ proptest! {
         let payload = encode(&Event::Transaction(it.clone()));
         let generated = proto::Transaction::decode(&*payload).unwrap();
         prop_assert_eq!(&generated, &transaction::transaction(&it));
+        prop_assert_eq!(&generated.encode_to_vec(), &payload);
         prop_assert_eq!(decode_transaction(at, &generated.encode_to_vec()), Ok(it));
+    }
+
+    #[test]
+    fn a_change_record_is_written_as_generated_code_writes_it(it in testing::change_record()) {
+        let payload = encode(&Event::Change(it));
+        let generated = proto::ChangeRecord::decode(&*payload).unwrap();
+        prop_assert_eq!(generated.encode_to_vec(), payload);
     }
 
     #[test]

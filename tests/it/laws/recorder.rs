@@ -12,7 +12,7 @@ use scenefold::time::At;
 use scenefold::updater::Config;
 
 use super::cases;
-use crate::house::{MANY_CHECKPOINTS, START, house, events, feed, inputs, record};
+use crate::house::{MANY_CHECKPOINTS, START, events, feed, house, inputs, record};
 
 proptest! {
     #![proptest_config(cases(40))]
