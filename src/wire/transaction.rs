@@ -4,7 +4,11 @@ mod read;
 
 pub use read::{MAX_TRANSACTION_ITEMS, decode_edits, decode_transaction};
 
-use super::common::{put_evidence, put_pose, evidence, index, node, object, other_time, pose, pose_source, region, size};
+#[cfg(test)]
+use super::common::evidence;
+use super::common::{
+    index, node, object, other_time, pose, pose_source, put_evidence, put_pose, region, size,
+};
 use super::proto;
 use super::put::Put;
 use crate::change::{Cause, Departure, Primitive, Sighting, Transaction};
