@@ -252,12 +252,19 @@ fn check_not_in_use(folder: &Path) -> Result<(), RecordError> {
     let segments = segment_files(folder).map_err(|error| io_error(folder, error))?;
     let Some(last) = segments.last() else { return Ok(()) };
     let file = File::open(last).map_err(|error| io_error(last, error))?;
-    match file.try_lock() {
-        Err(TryLockError::WouldBlock) => Err(RecordError::InUse { path: last.clone() }),
-        // Where files cannot be locked, nobody can tell.
-        _ => Ok(()),
+    // A recorder that is just ending gets the time to do so.
+    for _ in 0..LOCK_TRIES {
+        match file.try_lock() {
+            Err(TryLockError::WouldBlock) => std::thread::sleep(LOCK_PAUSE),
+            // Where files cannot be locked, nobody can tell.
+            _ => return Ok(()),
+        }
     }
+    Err(RecordError::InUse { path: last.clone() })
 }
+
+const LOCK_TRIES: usize = 20;
+const LOCK_PAUSE: Duration = Duration::from_millis(25);
 
 /// The file a new recording at `path` goes to.
 fn file_for(path: &Path) -> Result<PathBuf, RecordError> {

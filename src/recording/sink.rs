@@ -188,6 +188,8 @@ impl Sink {
         let (name, map) = seal.record();
         self.writer.write_metadata(name, map)?;
         let file = self.writer.finish()?;
+        // A child process that is just being started may hold the file open a moment longer.
+        let _ = file.unlock();
         if self.sync != SyncPolicy::Never {
             let path = self.path;
             file.sync_all().map_err(|error| RecordError::Io { path, error })?;
