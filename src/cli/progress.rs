@@ -53,6 +53,15 @@ impl<L: EventLog> EventLog for Counted<'_, L> {
         })
     }
 
+    fn visit_all(
+        &self,
+        first: u64,
+        last: u64,
+        visitor: &mut dyn FnMut(&Logged) -> ControlFlow<()>,
+    ) -> Result<(), L::Error> {
+        self.log.visit_all(first, last, visitor)
+    }
+
     fn refused(&self, error: &FoldError) -> bool {
         self.log.refused(error)
     }

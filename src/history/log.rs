@@ -19,6 +19,16 @@ pub trait EventLog {
         visitor: &mut dyn FnMut(&Logged) -> ControlFlow<()>,
     ) -> Result<(), Self::Error>;
 
+    /// As [`EventLog::visit`], with the pictures, which a log may keep apart and leave out there.
+    fn visit_all(
+        &self,
+        first: u64,
+        last: u64,
+        visitor: &mut dyn FnMut(&Logged) -> ControlFlow<()>,
+    ) -> Result<(), Self::Error> {
+        self.visit(first, last, visitor)
+    }
+
     /// Told of a transaction that the graph refuses; says whether to go on without it, as one
     /// does with a log that is known to be damaged.
     fn refused(&self, _: &FoldError) -> bool {

@@ -159,6 +159,15 @@ impl EventLog for Recording {
         self.visit_events(Walk::Events, (first, last), visitor)
     }
 
+    fn visit_all(
+        &self,
+        first: u64,
+        last: u64,
+        visitor: &mut dyn FnMut(&Logged) -> ControlFlow<()>,
+    ) -> Result<(), WalkError> {
+        self.visit_events(Walk::Everything, (first, last), visitor)
+    }
+
     fn refused(&self, error: &FoldError) -> bool {
         if let Some(segment) = self.segments.last() {
             self.report(segment, error);

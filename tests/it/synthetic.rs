@@ -4,6 +4,7 @@
 //! With `SCENEFOLD_MAKE_RECORDINGS=FOLDER` they are written there; see `recordings/make.sh`.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use scenefold::change::{
@@ -341,7 +342,7 @@ fn make() -> (PathBuf, Option<tempfile::TempDir>) {
         let path = folder.join(name).with_extension("mcap");
         assert!(!path.exists(), "{} is never overwritten", path.display());
         match bytes {
-            Some(bytes) => std::fs::write(path, bytes).unwrap(),
+            Some(bytes) => fs::write(path, bytes).unwrap(),
             None => every_rejection(&path),
         }
     }
@@ -410,4 +411,31 @@ fn the_recordings_made_by_hand_hold_all_there_is() {
     assert_eq!(by_hand.status, Verdict::Nondeterministic, "{:?}", by_hand.findings);
     assert_eq!(by_hand.findings.len(), 1, "{:?}", by_hand.findings);
     assert_eq!(by_hand.checkpoints, 1);
+}
+
+#[test]
+fn why_saves_the_picture_that_caused_a_removal() {
+    let jpeg = vec![0xff, 0xd8, 1, 2, 3];
+    let header = ros2::Header { stamp: ros2::Time::default(), frame_id: "camera" };
+    let image = ros2::CompressedImage { header, format: "jpeg", data: &jpeg };
+    let mut by_hand = ByHand::new();
+    by_hand.next(Event::InitialGraph(house()));
+    by_hand.next(sensor(
+        "/camera/color/image/compressed",
+        "sensor_msgs/msg/CompressedImage",
+        ros2::encode_compressed_image(&image),
+    ));
+    let plan = PlanConfig { decay_rate: 0.0, size: Size::new(0.2, 0.2, 0.2).unwrap() };
+    let mut world = by_hand.world.clone();
+    let mut desk = Desk::new(&mut world, &plan, by_hand.at, 0);
+    let evidence = EvidenceRef { topic: "/camera/color/image/compressed".into(), order: 2 };
+    let gone = claim(Action::Removed, NodeRef::id(id("O4")), 2, START);
+    desk.claim(Claim { evidence: vec![evidence], ..gone }).unwrap();
+    desk.into_events().into_iter().for_each(|event| by_hand.next(event));
+    let folder = tempfile::tempdir().unwrap();
+    let (path, out) = (folder.path().join("a.mcap"), folder.path().join("pictures"));
+    fs::write(&path, by_hand.finish()).unwrap();
+    let mut why = std::process::Command::new(env!("CARGO_BIN_EXE_scenefold"));
+    assert!(why.arg("why").arg(&path).arg("O4").arg("--out").arg(&out).status().unwrap().success());
+    assert_eq!(fs::read(out.join("2.jpg")).unwrap(), jpeg);
 }

@@ -48,7 +48,7 @@ fn read<L: EventLog>(log: &L, wanted: &BTreeSet<u64>) -> Result<Events, L::Error
         while let Some(next) = rest.next_if(|next| *next - last <= GAP) {
             last = next;
         }
-        log.visit(first, last, &mut |logged| {
+        log.visit_all(first, last, &mut |logged| {
             if wanted.contains(&logged.order) {
                 found.insert(logged.order, logged.clone());
             }
