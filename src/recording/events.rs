@@ -81,14 +81,14 @@ impl Recording {
         visitor: &mut RawVisitor<'_, 'r>,
     ) -> Result<(), WalkError> {
         let numbered = self.is_numbered();
-        let (from_segment, from_time) = match numbered {
+        let (from_segment, from_time, known) = match numbered {
             true => self.place_before(first),
-            false => (0, 0),
+            false => (0, 0, 0),
         };
         let mut counted = 0;
         for (n, segment) in self.segments.iter().enumerate().skip(from_segment) {
             let filter = MessageFilter { from_time, ..filter(segment, walk, numbered) };
-            let mut orphans = Orphans::of(self, n);
+            let mut orphans = Orphans::after(known, self, n);
             let mut each = |raw: RawEvent<'_>| {
                 counted += 1;
                 let order = if numbered { raw.order } else { counted };
@@ -130,10 +130,11 @@ impl Recording {
         Ok(flow)
     }
 
-    /// A segment and a log time at or before event `order`, by the nearest checkpoint.
-    fn place_before(&self, order: u64) -> (usize, u64) {
+    /// A segment and a log time at or before event `order`, by the nearest checkpoint, and the
+    /// number of the last event that the checkpoint covers.
+    fn place_before(&self, order: u64) -> (usize, u64, u64) {
         let before = self.checkpoints().rfind(|c| c.order < order);
-        before.map_or((0, 0), |checkpoint| (checkpoint.segment, checkpoint.at.nanos()))
+        before.map_or((0, 0, 0), |c| (c.segment, c.at.nanos(), c.order))
     }
 
     /// The event with this number, sensor data included; `None` if it is not there.

@@ -27,18 +27,25 @@ impl Orphans {
             true => u64::MAX,
             false => *segment.last_event.get_or_init(|| last_event(segment)),
         };
+        let first = segment.meta.as_ref().map_or(1, |meta| meta.first_order);
         let next_first = metas.map(|meta| meta.first_order).min().unwrap_or(u64::MAX);
-        Self { next_first, last_event, previous: 0 }
+        Self { next_first, last_event, previous: first.saturating_sub(1) }
+    }
+
+    /// As [`Orphans::of`], for a walk that begins after event `known`, which a checkpoint covers.
+    pub fn after(known: u64, recording: &Recording, n: usize) -> Self {
+        let fresh = Self::of(recording, n);
+        Self { previous: known.max(fresh.previous), ..fresh }
     }
 
     /// Whether the message with this number, the next one of the segment, is part of the log.
     pub fn takes(&mut self, order: u64) -> bool {
         // Beyond the last event a picture counts only if nothing before it is missing.
-        let beyond = order > self.last_event && order != self.previous + 1;
+        let beyond = order > self.last_event && order > self.previous + 1;
         if order >= self.next_first || beyond {
             return false;
         }
-        self.previous = order;
+        self.previous = self.previous.max(order);
         true
     }
 }

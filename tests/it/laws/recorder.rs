@@ -12,7 +12,7 @@ use scenefold::time::At;
 use scenefold::updater::Config;
 
 use super::cases;
-use crate::house::{MANY_CHECKPOINTS, START, events, feed, house, inputs, record};
+use crate::house::{MANY_CHECKPOINTS, START, at, events, feed, house, inputs, record, sensor};
 
 proptest! {
     #![proptest_config(cases(40))]
@@ -147,6 +147,30 @@ fn a_recording_that_is_being_written_is_not_gone_on_with() {
     assert!(refused.contains("another recorder"), "{refused}");
     recorder.finish().unwrap();
     assert_eq!(Recorder::append(&folder, &MANY_CHECKPOINTS).unwrap().updater().order(), 1);
+}
+
+#[test]
+fn pictures_after_a_checkpoint_on_a_picture_survive_a_stopped_writer() {
+    let scratch = tempfile::tempdir().unwrap();
+    let folder = scratch.path().join("segments/");
+    let mut recorder = Recorder::create(&folder, Config::default(), &MANY_CHECKPOINTS).unwrap();
+    recorder.record(START, Event::InitialGraph(house())).unwrap();
+    let picture = || sensor("/camera/depth/image", "sensor_msgs/msg/Image", vec![7; 5000]);
+    for second in 1..4 {
+        recorder.record(at(second), picture()).unwrap();
+        recorder.sync().unwrap();
+    }
+    drop(recorder);
+    let before = events(&Recording::open(&folder).unwrap(), Walk::Everything);
+    assert_eq!(before.len(), 4);
+    let mut recorder = Recorder::append(&folder, &MANY_CHECKPOINTS).unwrap();
+    assert_eq!(recorder.updater().order(), 4);
+    recorder.record(at(9), picture()).unwrap();
+    recorder.sync().unwrap();
+    drop(recorder);
+    // A segment that holds nothing but pictures is read as well.
+    assert_eq!(events(&Recording::open(&folder).unwrap(), Walk::Everything).len(), 5);
+    assert_eq!(Recorder::append(&folder, &MANY_CHECKPOINTS).unwrap().updater().order(), 5);
 }
 
 /// Flips a byte in the middle of the chunk in the middle of the events.
