@@ -4,10 +4,12 @@
 //! Every value is finite and lies on a fixed grid (a micrometre; 1e-7 of a unit quaternion), so
 //! equality is exact, text and integers carry it without loss, and −0.0 never occurs.
 
+mod camera;
 mod extent;
 mod grid;
 mod pose;
 
+pub use camera::Camera;
 pub use extent::Size;
 pub use grid::{GeometryError, Micrometres};
 pub use pose::{Pose, Tolerance};

@@ -6,5 +6,6 @@
 
 pub mod action;
 mod desk;
+pub mod human;
 
 pub use desk::Desk;

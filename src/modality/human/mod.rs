@@ -1,0 +1,5 @@
+//! Human language: what people say has changed.
+
+mod reading;
+
+pub use reading::{Mention, Quantity, Reading, Statement, When};
