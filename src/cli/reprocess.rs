@@ -14,7 +14,7 @@ use crate::document::ContentDocument;
 use crate::recording::{
     Difference, RecordError, Recorder, RecorderOptions, Reprocessed, reprocess,
 };
-use crate::updater::Config;
+use crate::updater::{Config, Detectors};
 
 /// Run the detectors again over the recorded inputs, and compare
 #[derive(Debug, clap::Args)]
@@ -30,7 +30,8 @@ pub struct Reprocess {
     /// Write what is derived now to a new recording
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Configuration (JSON) instead of the recorded one
+    /// Configuration (JSON) instead of the recorded one; recordings of inputs only are run through
+    /// all detectors
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
     /// Print one JSON document
@@ -58,12 +59,17 @@ struct DifferenceDocument {
 /// Runs `scenefold reprocess`.
 pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     let recording = source::open(&args.recording.path)?;
-    let config = match &args.config {
+    let mut config = match &args.config {
         Some(path) => {
             Config::from_json(&text(path)?).with_context(|| path.display().to_string())?
         }
         None => recording.meta().map_or_else(Config::default, |meta| meta.config.clone()),
     };
+    // Inputs only: there is nothing to compare with yet.
+    let first_time = args.config.is_none() && config.detectors == Detectors::None;
+    if first_time {
+        config.detectors = Detectors::All;
+    }
     let options = RecorderOptions::default();
     let recorder = args.out.as_ref().map(|path| Recorder::create(path, config.clone(), &options));
     let mut recorder = recorder.transpose()?;
@@ -81,10 +87,16 @@ pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     }
     if args.json {
         out.json(&document(&result))?;
+    } else if first_time {
+        let (inputs, changes) = (result.inputs, result.updater.changes());
+        writeln!(out, "{inputs} inputs, which nobody had run through, give {changes} changes")?;
     } else {
         print(&result, out)?;
     }
     let outcome = source::warn(&recording);
+    if first_time {
+        return Ok(outcome);
+    }
     Ok(if result.different > 0 { Outcome::Findings } else { outcome })
 }
 

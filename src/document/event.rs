@@ -72,6 +72,11 @@ pub enum ContentDocument {
     },
     /// Time passes.
     Tick,
+    /// What really changed, in a simulation.
+    TrueChange {
+        /// The record.
+        change: Box<ChangeDocument>,
+    },
     /// A message that is passed through.
     Sensor {
         /// Name of its schema; empty if it has none.
@@ -165,6 +170,9 @@ impl ContentDocument {
             Event::Task(task) => Self::task(task),
             Event::TaskStatus(status) => Self::task_status(status),
             Event::Tick => Self::Tick,
+            Event::TrueChange(record) => {
+                Self::TrueChange { change: Box::new(ChangeDocument::of(record)) }
+            }
             Event::Sensor(message) => Self::sensor(message),
             Event::Interpretation(understood) => Self::interpretation(understood),
             Event::Change(record) => Self::Change { change: Box::new(ChangeDocument::of(record)) },

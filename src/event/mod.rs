@@ -28,6 +28,9 @@ pub enum Event {
     TaskStatus(TaskStatus),
     /// `/clock`: time passes.
     Tick,
+    /// `/truth/change`: what really changed, in the truth file of a simulation; see
+    /// [`crate::updater::Detectors::Truth`].
+    TrueChange(ChangeRecord),
     /// A message of a sensor or of another program, passed through untouched.
     Sensor(SensorMessage),
     /// `/evidence/interpretation`: what was understood of a task or a sentence.
@@ -47,6 +50,7 @@ impl Event {
             Self::Task(_) => Topic::Task,
             Self::TaskStatus(_) => Topic::TaskStatus,
             Self::Tick => Topic::Clock,
+            Self::TrueChange(_) => Topic::TrueChange,
             Self::Sensor(message) => Topic::Sensor(message.topic.clone()),
             Self::Interpretation(_) => Topic::Interpretation,
             Self::Change(_) => Topic::Change,

@@ -31,6 +31,8 @@ pub enum Topic {
     TaskStatus,
     /// `/clock`
     Clock,
+    /// `/truth/change`
+    TrueChange,
     /// `/evidence/interpretation`
     Interpretation,
     /// `/change`
@@ -45,12 +47,13 @@ pub enum Topic {
 
 impl Topic {
     /// The topics with schemas of our own.
-    pub const OWN: [Self; 9] = [
+    pub const OWN: [Self; 10] = [
         Self::InitialGraph,
         Self::Utterance,
         Self::Task,
         Self::TaskStatus,
         Self::Clock,
+        Self::TrueChange,
         Self::Interpretation,
         Self::Change,
         Self::Primitive,
@@ -71,6 +74,7 @@ impl Topic {
             Self::Task => "/robot/task",
             Self::TaskStatus => "/robot/task_status",
             Self::Clock => "/clock",
+            Self::TrueChange => "/truth/change",
             Self::Interpretation => "/evidence/interpretation",
             Self::Change => "/change",
             Self::Primitive => "/primitive",
@@ -82,9 +86,12 @@ impl Topic {
     /// Its role.
     pub fn role(&self) -> Role {
         match self {
-            Self::InitialGraph | Self::Utterance | Self::Task | Self::TaskStatus | Self::Clock => {
-                Role::Input
-            }
+            Self::InitialGraph
+            | Self::Utterance
+            | Self::Task
+            | Self::TaskStatus
+            | Self::Clock
+            | Self::TrueChange => Role::Input,
             Self::Interpretation | Self::Change | Self::Primitive => Role::Derived,
             Self::Checkpoint => Role::Cache,
             Self::Sensor(name) if name.starts_with("/model/") => Role::Model,

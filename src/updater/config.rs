@@ -15,8 +15,31 @@ pub struct Config {
     pub added_decay_rate: f64,
     /// Box of objects that are added without a measured one: (w, h, d) in metres.
     pub added_size_m: [f64; 3],
+    /// Which detectors run over the inputs.
+    #[serde(skip_serializing_if = "Detectors::is_all")]
+    pub detectors: Detectors,
     #[serde(skip)]
     added_size: CheckedSize,
+}
+
+/// Which detectors run over the inputs of a recording.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Detectors {
+    /// All of them.
+    #[default]
+    All,
+    /// None: the recording holds inputs only, to be run through `scenefold reprocess`.
+    None,
+    /// None, but `/truth/change` is carried out: the truth file of a simulation.
+    Truth,
+}
+
+impl Detectors {
+    #[allow(clippy::trivially_copy_pass_by_ref)] // as serde calls it
+    fn is_all(&self) -> bool {
+        *self == Self::All
+    }
 }
 
 /// `added_size_m`, once it was seen to be a box.
@@ -50,7 +73,12 @@ impl Default for Config {
     fn default() -> Self {
         let added_size = CheckedSize::default();
         let added_size_m = added_size.0.metres();
-        Self { added_decay_rate: HALF_LIFE_12_H, added_size_m, added_size }
+        Self {
+            added_decay_rate: HALF_LIFE_12_H,
+            added_size_m,
+            detectors: Detectors::All,
+            added_size,
+        }
     }
 }
 
@@ -82,7 +110,11 @@ mod tests {
 
     #[test]
     fn a_configuration_reads_back_from_its_json() {
-        let config = Config { added_decay_rate: 0.25, ..Config::default() };
+        let config = Config {
+            added_decay_rate: 0.25,
+            detectors: Detectors::Truth,
+            ..Config::default()
+        };
         assert_eq!(Config::from_json(&config.to_json()).unwrap(), config);
         assert_eq!(Config::from_json("{}").unwrap(), Config::default());
     }

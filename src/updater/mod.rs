@@ -11,9 +11,9 @@ mod bytes;
 mod config;
 
 pub use bytes::RestoreError;
-pub use config::{Config, ConfigError};
+pub use config::{Config, ConfigError, Detectors};
 
-use crate::change::World;
+use crate::change::{Claim, EvidenceRef, World};
 use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
@@ -140,9 +140,16 @@ impl Updater {
         }
         let plan = self.config.plan();
         let mut desk = Desk::new(&mut self.world, &plan, self.at, self.changes);
-        match input {
-            Event::Task(task) => self.action.task(&mut desk, order, task),
-            Event::TaskStatus(status) => self.action.task_status(&mut desk, order, status),
+        match (self.config.detectors, input) {
+            (Detectors::Truth, Event::TrueChange(change)) => {
+                let topic = input.topic().name();
+                let evidence = vec![EvidenceRef { topic, order }];
+                // Recorded either way; the truth never contradicts itself.
+                let _ = desk.claim(Claim { evidence, ..change.claim.clone() });
+            }
+            (Detectors::None | Detectors::Truth, _) => {}
+            (Detectors::All, Event::Task(task)) => self.action.task(&mut desk, order, task),
+            (Detectors::All, Event::TaskStatus(status)) => self.action.task_status(&mut desk, order, status),
             _ => {}
         }
         desk.into_events()

@@ -153,6 +153,7 @@ fn told(logged: &Logged) -> String {
             format!("the robot's task {task} reported {status:?} (#{order})")
         }
         Event::Tick => format!("the clock (#{order})"),
+        Event::TrueChange(_) => format!("it really happened (#{order})"),
         other => format!("{} (#{order})", clean(&other.topic().name())),
     }
 }

@@ -51,7 +51,8 @@ proptest! {
 
     #[test]
     fn a_change_record_reads_back(record in testing::change_record()) {
-        check(Stamp::EPOCH, &Event::Change(record))?;
+        check(Stamp::EPOCH, &Event::Change(record.clone()))?;
+        check(Stamp::EPOCH, &Event::TrueChange(record))?;
     }
 
     #[test]
