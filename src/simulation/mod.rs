@@ -11,6 +11,9 @@ pub mod solid;
 pub mod story;
 pub mod world;
 
+#[cfg(test)]
+mod tests;
+
 // TEMPORARY until the branches are merged.
 /// Noise.
 pub mod sensor {
