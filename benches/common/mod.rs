@@ -11,6 +11,7 @@ pub mod dense;
 pub mod household;
 pub mod logs;
 pub mod measure;
+pub mod room;
 
 /// Whether only the smoke mode is wanted: everything a hundredth of its size.
 pub fn small() -> bool {

@@ -5,6 +5,7 @@
 pub mod house;
 pub mod mesh;
 pub mod random;
+pub mod render;
 pub mod robot;
 pub mod scenario;
 pub mod solid;

@@ -1,0 +1,5 @@
+//! Pictures of what is known.
+
+mod depth;
+mod scenes;
+pub(super) mod shapes;
