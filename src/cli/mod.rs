@@ -16,6 +16,7 @@ mod progress;
 mod recover;
 mod replay;
 mod reprocess;
+mod simulate;
 mod snapshot;
 mod source;
 mod verify;
@@ -68,6 +69,7 @@ enum Command {
     Import(import::Import),
     Export(export::Export),
     Ingest(ingest::Ingest),
+    Simulate(simulate::Simulate),
     Demo(demo::Demo),
 }
 
@@ -122,6 +124,7 @@ impl Cli {
             Command::Import(args) => import::run(&args, out),
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
+            Command::Simulate(args) => simulate::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

@@ -9,6 +9,7 @@
 //! - `python`: other readers agree.
 //! - `readme`: the front door tells the truth.
 //! - `fuzz_seeds`: what fuzzing starts from.
+//! - `simulate`: what a simulated robot gets, and the truth.
 //! - `tidy`: the shape of the sources.
 
 // Tests are read far more often than they run.
@@ -25,6 +26,7 @@ mod mutations;
 mod python;
 mod readme;
 mod sha256;
+mod simulate;
 mod synthetic;
 mod tidy;
 

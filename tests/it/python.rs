@@ -100,6 +100,31 @@ fn python_decodes_what_was_passed_through() {
 }
 
 #[test]
+fn python_opens_the_pictures_of_a_simulated_camera() {
+    if !has("mcap, mcap_ros2, PIL") {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("in.mcap");
+    let mut simulate = Command::new(env!("CARGO_BIN_EXE_scenefold"));
+    simulate.args(["simulate", "--seed", "1", "--size", "64x48", "--rate", "0.2", "-o"]).arg(&path);
+    assert!(simulate.output().unwrap().status.success());
+    let found = script("camera.py", &[&path]);
+    let pictures = found["colour"].as_u64().unwrap();
+    assert!(pictures > 5, "{found}");
+    assert_eq!((&found["depth"], &found["info"]), (&pictures.into(), &pictures.into()));
+    assert_eq!(found["colour_kinds"], serde_json::json!([[64, 48, "jpeg", "jpeg"]]));
+    assert_eq!(found["depth_kinds"], serde_json::json!([[64, 48, "16UC1", 128]]));
+    let seen = found["least_seen"].as_u64().unwrap();
+    assert!(seen > 64 * 48 / 3, "in some picture only {seen} pixels have a depth");
+    assert!(found["farthest_mm"].as_u64().unwrap() < 20_000);
+    let frames = found["frames"].to_string();
+    for frame in ["base_link", "camera_mount", "camera_link", "camera_optical_frame", "gripper"] {
+        assert!(frames.contains(frame), "{frame} is missing in {frames}");
+    }
+}
+
+#[test]
 fn files_of_other_programs_are_counted_as_python_counts_them() {
     let Some(data) = std::env::var_os("SCENEFOLD_SHARED_DATA") else {
         eprintln!("SCENEFOLD_SHARED_DATA is not set: not tested");

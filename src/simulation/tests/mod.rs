@@ -2,6 +2,7 @@
 
 mod motion;
 mod places;
+mod scenarios;
 
 use std::sync::Arc;
 
