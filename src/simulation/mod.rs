@@ -2,6 +2,7 @@
 //!
 //! Deterministic: same house, same scenario, same seed, same bytes, for any number of threads.
 
+pub mod blocks;
 pub mod house;
 pub mod mesh;
 pub mod random;

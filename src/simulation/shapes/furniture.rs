@@ -151,8 +151,8 @@ fn upholstered(s: &mut Sketch, frame: u32, cushions: u32, places: u32) {
     for x in [0.0, w - arm] {
         s.block([x, 0.0, seat * 0.72], [x + arm, h, arm_top]);
     }
-    s.top("left arm", [0.0; 3], [arm, h, arm_top], None);
-    s.top("right arm", [w - arm, 0.0, 0.0], [w, h, arm_top], None);
+    s.top("arm", [0.0; 3], [arm, h, arm_top], None);
+    s.top("arm", [w - arm, 0.0, 0.0], [w, h, arm_top], None);
     s.surface("seat", [arm + 0.02, 0.03], [w - arm - 0.02, h - back - 0.02], seat, None);
     s.paint(cloth(cushions));
     let width = (w - 2.0 * arm) / f64::from(places);
@@ -220,9 +220,9 @@ fn shelves(s: &mut Sketch, count: u32, side: f64) {
         let low = step * f64::from(n);
         s.block([side, 0.0, low], [w - side, h - 0.012, low + side]);
         let free = (n < count).then_some(step - side);
-        let name = if n < count { format!("shelf {}", n + 1) } else { "top".to_owned() };
+        let name = if n < count { "shelf" } else { "top" };
         let max = [w - side - 0.01, h - 0.02];
-        s.surface(&name, [side + 0.01, 0.01], max, low + side, free);
+        s.surface(name, [side + 0.01, 0.01], max, low + side, free);
     }
 }
 
@@ -234,7 +234,7 @@ fn bookshelf(s: &mut Sketch) {
     let step = (d - 0.025) / 5.0;
     for (row, colours) in [(1, [0x8c2f39, 0x2f5d8c, 0xd9a441]), (3, [0x3c7a4a, 0xefe6d2, 0x5a3d7a])]
     {
-        let z = step * f64::from(row) + 0.025;
+        let z = step * row as f64 + 0.025;
         let mut x = 0.03;
         for (n, colour) in colours.into_iter().enumerate() {
             let wide = w * 0.05;
@@ -243,7 +243,7 @@ fn bookshelf(s: &mut Sketch) {
             s.block([x, 0.03, z], [x + wide, s.size[1] * 0.8, z + high]);
             x += wide + 0.004;
         }
-        s.narrow(&format!("shelf {}", row + 1), x + 0.01);
+        s.narrow(row, x + 0.01);
     }
 }
 

@@ -54,7 +54,7 @@ fn pantry(s: &mut Sketch) {
         }
         let free = step - if n == 2 { side } else { 0.02 };
         let (min, max) = ([side + 0.01, 0.04], [w - side - 0.01, h - 0.03]);
-        s.surface(&format!("shelf {}", n + 1), min, max, z, Some(free));
+        s.surface("shelf", min, max, z, Some(free));
     }
     s.paint(wood(0x7d9a74));
     for x in [0.0, w / 2.0] {

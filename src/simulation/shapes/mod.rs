@@ -11,8 +11,8 @@ mod food;
 mod furniture;
 mod kitchen;
 mod names;
-mod paint;
-pub(super) mod polygon;
+pub(in crate::simulation) mod paint;
+pub(in crate::simulation) mod polygon;
 mod sketch;
 mod tableware;
 mod textiles;
@@ -79,19 +79,39 @@ pub fn surfaces(class: &str, size: Size) -> Vec<Surface> {
     drawn(class, size).1
 }
 
-fn drawn(class: &str, size: Size) -> (Mesh, Vec<Surface>) {
-    let size = size.metres();
-    let Some(known) = class_named(class) else {
-        let mut sketch = Sketch::new(size);
-        plain_box(&mut sketch, class);
-        return sketch.finish(size);
-    };
+/// A plain box for a class, whose colour depends on the name of the class, and its top.
+pub fn plain_shape(class: &str, size: Size) -> (Mesh, Vec<Surface>) {
+    let mut sketch = Sketch::new(size.metres());
+    plain_box(&mut sketch, class);
+    sketch.finish(size.metres())
+}
+
+/// [`shape`] and [`surfaces`] at once.
+pub fn drawn(class: &str, box_: Size) -> (Mesh, Vec<Surface>) {
+    let size = box_.metres();
+    let Some(known) = class_named(class) else { return plain_shape(class, box_) };
     // Boards and legs have thicknesses of their own: what is far from the usual size is drawn
     // nearer to it, and stretched.
     let near = |k: usize| size[k].clamp(known.usual_m[k] * 0.6, known.usual_m[k] * 2.0);
     let mut sketch = Sketch::new(std::array::from_fn(near));
     (known.draw)(&mut sketch);
     sketch.finish(size)
+}
+
+/// A box of one look.
+pub fn block(size: Size, material: Material) -> Mesh {
+    let mut sketch = Sketch::new(size.metres());
+    let max = sketch.size;
+    sketch.paint(material).block([0.0; 3], max);
+    sketch.finish(size.metres()).0
+}
+
+/// A polygon drawn out upwards, filling a box.
+pub fn slab(outline: &[[f64; 2]], size: Size, material: Material) -> Mesh {
+    let mut sketch = Sketch::new(size.metres());
+    let high = sketch.size[2];
+    sketch.paint(material).prism(2, outline, [0.0, high]);
+    sketch.finish(size.metres()).0
 }
 
 /// A box whose colour depends on the class, so that unlike things look unlike.

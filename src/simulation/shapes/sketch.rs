@@ -52,11 +52,9 @@ impl Sketch {
         self.surface(name, low, high, max[2], clearance);
     }
 
-    /// A surface begins further to the right: something stands on its left.
-    pub fn narrow(&mut self, name: &str, x: f64) {
-        for surface in self.surfaces.iter_mut().filter(|surface| surface.name == name) {
-            surface.min[0] = x;
-        }
+    /// Surface number `n` begins further to the right: something stands on its left.
+    pub fn narrow(&mut self, n: usize, x: f64) {
+        self.surfaces[n].min[0] = x;
     }
 
     fn vertex(&mut self, at: Point) -> u32 {
