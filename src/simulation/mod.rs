@@ -5,3 +5,4 @@
 pub mod house;
 pub mod mesh;
 pub mod render;
+pub mod sensor;
