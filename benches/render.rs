@@ -10,7 +10,7 @@ use common::room::{Room, Thing};
 use common::small;
 use nalgebra::{Isometry3, Vector3};
 use parry3d::bounding_volume::BoundingVolume;
-use parry3d::math::{Pose, Vector};
+use parry3d::math::{Pose, Rotation, Vector};
 use parry3d::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d::query::{Ray, RayCast};
 use parry3d::shape::TriMesh;
@@ -61,7 +61,7 @@ impl Bare {
         let mesh = |(mesh, pose): &Thing| {
             let vertices = mesh.vertices.iter().map(|at| Vector::from(*at)).collect();
             let mesh = TriMesh::new(vertices, mesh.triangles.clone()).expect("it has triangles");
-            (mesh, pose.cast::<f32>().into())
+            (mesh, pose_of(pose))
         };
         let things: Vec<(TriMesh, Pose)> = things.iter().map(mesh).collect();
         let boxes: Vec<_> =
@@ -88,4 +88,11 @@ impl Bare {
         }
         sum
     }
+}
+
+fn pose_of(world_from_mesh: &Isometry3<f64>) -> Pose {
+    let world_from_mesh: Isometry3<f32> = world_from_mesh.cast();
+    let turn = world_from_mesh.rotation.coords;
+    let turn = Rotation::from_xyzw(turn.x, turn.y, turn.z, turn.w);
+    Pose::from_parts(<[f32; 3]>::from(world_from_mesh.translation.vector).into(), turn)
 }

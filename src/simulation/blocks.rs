@@ -61,11 +61,30 @@ impl Block {
         least
     }
 
+    /// Distance of a point on the floor to its footprint, metres; 0 within.
+    pub fn distance(&self, [x, y]: [f64; 2]) -> f64 {
+        let ([c, s], [a, b]) = (self.along, self.half);
+        let (dx, dy) = (x - self.centre[0], y - self.centre[1]);
+        let (along, across) = ((dx * c + dy * s).abs() - a, (dy * c - dx * s).abs() - b);
+        libm::hypot(along.max(0.0), across.max(0.0))
+    }
+
     /// How far it reaches from its centre along an axis.
     fn reach(&self, [x, y]: [f64; 2]) -> f64 {
         let ([c, s], [a, b]) = (self.along, self.half);
         a * (c * x + s * y).abs() + b * (c * y - s * x).abs()
     }
+}
+
+/// Turn of an upright pose about z, radians.
+pub fn yaw(pose: &Pose) -> f64 {
+    let [w, x, y, z] = pose.orientation();
+    libm::atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z))
+}
+
+/// An upright pose turned about z; `None` beyond the grid of poses.
+pub fn upright(at: [f64; 3], yaw: f64) -> Option<Pose> {
+    Pose::new(at, [libm::cos(yaw / 2.0), 0.0, 0.0, libm::sin(yaw / 2.0)]).ok()
 }
 
 fn unit([x, y]: [f64; 2]) -> [f64; 2] {

@@ -5,24 +5,17 @@
 pub mod blocks;
 pub mod house;
 pub mod mesh;
+pub mod publish;
 pub mod random;
+pub mod record;
 pub mod render;
 pub mod robot;
 pub mod scenario;
+pub mod sensor;
 pub mod shapes;
-pub mod solid;
 pub mod story;
+pub mod truth;
 pub mod world;
 
 #[cfg(test)]
 mod tests;
-
-// TEMPORARY until the branches are merged.
-/// Noise.
-pub mod sensor {
-    use schemars::JsonSchema;
-    use serde::{Deserialize, Serialize};
-    /// Noise.
-    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-    pub struct NoiseConfig {}
-}

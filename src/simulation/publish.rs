@@ -5,18 +5,20 @@ use std::sync::Arc;
 use nalgebra::Isometry3;
 
 use super::house::House;
-use super::render::{Frame, InstanceId, Scene};
+use super::render::{InstanceId, Scene};
 use super::robot::behaviour::Report;
 use super::robot::motion::Body;
 use super::scenario::{Errand, Scenario};
-use super::sensor::{self, EncodeError, Sensor};
+use super::sensor::{
+    FileError, NoiseConfig, Picture, TF_STATIC_TOPIC, TF_TOPIC, Transform, colour_message,
+    depth_message, info_message, mask_message, tf_message,
+};
 use super::story::{Moment, Story};
-use super::truth::object_id;
+use super::truth::{object_id, room_id};
 use super::world::{Presence, TrueWorld};
 use crate::change::NodeRef;
 use crate::event::{Event, Task, TaskStatus, Utterance};
 use crate::geometry::Camera;
-use crate::graph::{Label, Layer, NodeId};
 use crate::time::Stamp;
 
 /// Name of the world frame.
@@ -37,7 +39,8 @@ pub struct Publisher {
     scene: Scene,
     things: Vec<InstanceId>,
     camera: Camera,
-    sensor: Sensor,
+    noise: NoiseConfig,
+    seed: u64,
     jpeg_quality: u8,
     pictures: u64,
     poses: u64,
@@ -48,10 +51,11 @@ impl Publisher {
     pub fn new(scenario: &Scenario, house: &Arc<House>) -> Self {
         let camera = &scenario.robot.camera;
         Self {
-            scene: house.scene(),
+            scene: building(house),
             things: Vec::new(),
             camera: Camera::with_fov(camera.width, camera.height, camera.fov_deg.to_radians()),
-            sensor: Sensor::new(scenario.noise, scenario.seed),
+            noise: scenario.noise.clone(),
+            seed: scenario.seed,
             jpeg_quality: camera.jpeg_quality,
             pictures: 0,
             poses: 0,
@@ -76,40 +80,34 @@ impl Publisher {
     }
 
     fn poses(&mut self, body: &Body, at: Stamp) -> Vec<Event> {
-        let moving = [
-            (WORLD, BASE, body.world_from_base()),
-            (MOUNT, HEAD, body.mount_from_head()),
-        ];
+        let transform =
+            |(parent, child, parent_from_child)| Transform { parent, child, parent_from_child };
+        let moving = [(WORLD, BASE, body.world_from_base()), (MOUNT, HEAD, body.mount_from_head())];
         let fixed = [
             (BASE, MOUNT, body.base_from_mount()),
             (HEAD, OPTICAL, Body::head_from_optical()),
             (BASE, GRIPPER, Body::base_from_gripper()),
         ];
         self.poses += 1;
-        let moving = sensor::tf("/tf", at, &moving);
+        let moving = tf_message(at, TF_TOPIC, &moving.map(transform));
         match self.poses {
-            1 => vec![sensor::tf("/tf_static", at, &fixed), moving],
+            1 => vec![tf_message(at, TF_STATIC_TOPIC, &fixed.map(transform)), moving],
             _ => vec![moving],
         }
     }
 
     /// The messages of the camera, and the true mask.
-    pub fn picture(
-        &mut self,
-        story: &Story,
-        at: Stamp,
-    ) -> Result<(Vec<Event>, Event), EncodeError> {
+    pub fn picture(&mut self, story: &Story, at: Stamp) -> Result<(Vec<Event>, Event), FileError> {
         self.set_scene(story.world());
-        let seen = self.scene.render(&self.camera, &story.body().world_from_camera());
-        let mask = sensor::mask_image("/truth/mask", at, OPTICAL, &seen);
-        let taken: Frame = self.sensor.take(&seen, self.pictures);
+        let frame = self.scene.render(&self.camera, &story.body().world_from_camera());
+        let picture = Picture::take(&frame, &self.camera, &self.noise, self.seed, self.pictures);
         self.pictures += 1;
         let events = vec![
-            sensor::camera_info(at, OPTICAL, &self.camera),
-            sensor::colour_image(at, OPTICAL, &taken, self.jpeg_quality)?,
-            sensor::depth_image(at, OPTICAL, &taken),
+            info_message(at, OPTICAL, &self.camera),
+            colour_message(at, OPTICAL, &picture, self.jpeg_quality)?,
+            depth_message(at, OPTICAL, &picture),
         ];
-        Ok((events, mask))
+        Ok((events, mask_message(at, OPTICAL, &frame)))
     }
 
     /// Puts every thing where it is by now.
@@ -128,20 +126,38 @@ impl Publisher {
     }
 }
 
+/// The building without its things, a lamp in each room.
+fn building(house: &House) -> Scene {
+    let lamps = house.rooms.iter().map(|room| {
+        let n = room.outline.len() as f64;
+        let middle = |axis: usize| room.outline.iter().map(|at| at[axis]).sum::<f64>() / n;
+        let position = [middle(0), middle(1), house.wall_height_m - 0.15];
+        let (radius_m, colour, strength, room) = (0.2, [1.0, 0.97, 0.9], 1.6, room.outline.clone());
+        crate::simulation::render::Lamp { position, radius_m, colour, strength, room }
+    });
+    let lighting = crate::simulation::render::Lighting {
+        lamps: lamps.collect(),
+        ambient: crate::simulation::render::Ambient::default(),
+        background: [0.55, 0.6, 0.66],
+    };
+    let mut scene = Scene::new(lighting);
+    for slab in [house.walls(), house.floors(), house.ceilings()].into_iter().flatten() {
+        scene.add(&slab.mesh, &slab.pose.isometry(), 0);
+    }
+    scene
+}
+
 fn task_id(n: usize) -> String {
     format!("t{}", n + 1)
 }
 
 /// What the robot is told; with the nodes only if its planner knows them.
 fn task(n: usize, errand: &Errand, world: &TrueWorld) -> Task {
-    let task = Task {
-        task_id: task_id(n),
-        instruction: errand.instruction.clone(),
-        ..Task::default()
-    };
+    let task =
+        Task { task_id: task_id(n), instruction: errand.instruction.clone(), ..Task::default() };
     let known = world.find(&errand.pick).ok().filter(|_| errand.planned);
     let Some(object) = known else { return task };
-    let room = |n: usize| NodeRef::id(NodeId::new(Layer::Room, n as u64 + 1));
+    let room = |n: usize| NodeRef::id(room_id(n));
     let support = errand.place.on.as_ref().and_then(|on| world.find(on).ok());
     let floor = errand.place.room.as_ref().and_then(|room| world.room(room).ok());
     Task {
@@ -162,11 +178,8 @@ fn status(report: &Report, world: &TrueWorld) -> TaskStatus {
     let thing = world.thing(n);
     // The robot knows by its number what it knew at the start, and nothing else.
     let known = |n: usize| (n < world.house().things.len()).then(|| object_id(n));
-    let named = |n: usize| {
-        let label: Label = world.thing(n).label.clone();
-        NodeRef { id: known(n), label: Some(label) }
-    };
-    let room = Some(NodeRef::id(NodeId::new(Layer::Room, thing.room as u64 + 1)));
+    let named = |n: usize| NodeRef { id: known(n), label: Some(world.thing(n).label.clone()) };
+    let room = Some(NodeRef::id(room_id(thing.room)));
     let support = thing.support.map(named);
     TaskStatus { pose: Some(thing.pose), object: Some(named(n)), room, support, ..bare }
 }

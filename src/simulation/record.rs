@@ -44,12 +44,9 @@ pub enum SimulationError {
     /// The files cannot be written.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// The house is no graph.
-    #[error(transparent)]
-    Graph(#[from] crate::graph::EditError),
     /// A picture could not be packed.
     #[error("a picture could not be written: {0}")]
-    Picture(#[from] super::sensor::EncodeError),
+    Picture(#[from] super::sensor::FileError),
 }
 
 /// Where the truth of a recording is: `in.mcap` has `in.truth.mcap`.
@@ -91,26 +88,24 @@ impl Files {
         house: &Arc<House>,
     ) -> Result<Self, SimulationError> {
         let options = RecorderOptions::default();
-        let with = |detectors| Config { detectors, ..Config::default() };
+        let with = |detectors| {
+            let mut config = Config::default();
+            config.detectors = detectors;
+            config
+        };
         let (recording, truth_path) = (path.to_owned(), truth_of(path));
         let mut inputs = Recorder::create(path, with(Detectors::None), &options)?;
         let mut truth = Recorder::create(&truth_path, with(Detectors::Truth), &options)?;
-        let graph = house.graph(scenario.start)?;
+        let graph = house.graph(scenario.start);
         inputs.record(scenario.start, Event::InitialGraph(graph.clone()))?;
         truth.record(scenario.start, Event::InitialGraph(graph))?;
         let publisher = Publisher::new(scenario, house);
         let (pictures, changes, seconds, way) = (0, 0, 0.0, Vec::new());
-        let simulated =
-            Simulated { recording, truth: truth_path, pictures, changes, seconds, way };
+        let simulated = Simulated { recording, truth: truth_path, pictures, changes, seconds, way };
         Ok(Self { inputs, truth, publisher, simulated })
     }
 
-    fn take(
-        &mut self,
-        story: &Story,
-        at: Stamp,
-        moment: &Moment,
-    ) -> Result<(), SimulationError> {
+    fn take(&mut self, story: &Story, at: Stamp, moment: &Moment) -> Result<(), SimulationError> {
         match moment {
             Moment::Deed(done) => return self.deed(story, at, done),
             Moment::Reported(report) => {

@@ -27,17 +27,11 @@ pub fn by_robot(story: &Story, action: Action, n: usize, at: Stamp) -> ChangeRec
     change
 }
 
-fn record(
-    story: &Story,
-    modality: Modality,
-    action: Action,
-    n: usize,
-    at: Stamp,
-) -> ChangeRecord {
+fn record(story: &Story, modality: Modality, action: Action, n: usize, at: Stamp) -> ChangeRecord {
     let thing = story.world().thing(n);
     let id = (action != Action::Added).then(|| object_id(n));
     let there = action != Action::Removed;
-    let room = NodeRef::id(NodeId::new(Layer::Room, thing.room as u64 + 1));
+    let room = NodeRef::id(room_id(thing.room));
     let claim = Claim {
         modality,
         detector: NAME.into(),
@@ -57,6 +51,17 @@ fn record(
 }
 
 /// Thing number `n` in the graph.
+///
+/// # Panics
+/// Beyond the most nodes that a graph can have.
 pub fn object_id(n: usize) -> NodeId {
-    NodeId::new(Layer::Object, n as u64 + 1)
+    NodeId::new(Layer::Object, n as u32 + 1).expect("a house has fewer things")
+}
+
+/// Room number `n` in the graph.
+///
+/// # Panics
+/// Beyond the most nodes that a graph can have.
+pub fn room_id(n: usize) -> NodeId {
+    NodeId::new(Layer::Room, n as u32 + 1).expect("a house has fewer rooms")
 }

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::house::{House, Surface, Thing};
+use super::blocks::{Block, parts, upright, yaw};
+use super::house::{House, Space, Surface, Thing};
 use super::random::Random;
-use super::robot::grid::{contains, to_segment, walls};
 use super::scenario::Place;
-use super::solid::{Solid, upright, yaw};
+use super::shapes::polygon::contains;
 use crate::geometry::Pose;
 
 /// Where a thing is.
@@ -24,7 +24,7 @@ pub enum Presence {
 #[derive(Clone, Debug)]
 pub struct TrueWorld {
     house: Arc<House>,
-    walls: Vec<[[f64; 2]; 2]>,
+    space: Space,
     things: Vec<(Thing, Presence)>,
 }
 
@@ -104,12 +104,17 @@ impl TrueWorld {
     /// The house as it was built.
     pub fn new(house: Arc<House>) -> Self {
         let things = house.things.iter().map(|thing| (thing.clone(), Presence::There)).collect();
-        Self { walls: walls(&house), things, house }
+        Self { space: Space::new(&house), things, house }
     }
 
     /// The house.
     pub fn house(&self) -> &Arc<House> {
         &self.house
+    }
+
+    /// What takes up space by now.
+    pub fn space(&self) -> &Space {
+        &self.space
     }
 
     /// How many things there ever were.
@@ -178,6 +183,7 @@ impl TrueWorld {
     /// Takes a thing away or into the gripper.
     pub fn take(&mut self, n: usize, presence: Presence) {
         self.things[n].1 = presence;
+        self.space.put(n, None);
     }
 
     /// Puts a thing somewhere, with everything that stands on it.
@@ -192,10 +198,12 @@ impl TrueWorld {
         let (thing, presence) = &mut self.things[n];
         *presence = Presence::There;
         (thing.pose, thing.room, thing.support) = (spot.pose, spot.room, spot.support);
+        self.space.put(n, Some(&spot.pose));
     }
 
     /// Adds a thing that was never there; its number.
     pub fn add(&mut self, thing: Thing) -> usize {
+        self.space.add(&thing);
         self.things.push((thing, Presence::There));
         self.things.len() - 1
     }
@@ -275,11 +283,10 @@ impl TrueWorld {
             let drawn = [random.between(x0, x1), random.between(y0, y1)];
             let turn = turn(place, random);
             let [x, y] = place.at.unwrap_or(drawn);
-            let inside = Solid { centre: [x, y, z], half: half(thing), yaw: turn }
-                .corners()
-                .iter()
-                .all(|corner| contains(outline, *corner));
             let pose = upright([x, y, z], turn)?;
+            let [w, h, d] = half(thing);
+            let around = Block::of(&pose, [-w, -h, -d], [w, h, d]);
+            let inside = around.corners().iter().all(|corner| contains(outline, *corner));
             inside.then_some(Spot { pose, room, support: None })
         })
         .ok_or_else(|| no_room_left(thing, self.house.rooms[room].label.as_str()))
@@ -293,28 +300,24 @@ impl TrueWorld {
         draw: &mut dyn FnMut(&mut Random) -> Option<Spot>,
     ) -> Option<Spot> {
         let tries = if place.at.is_some() && place.yaw_deg.is_some() { 1 } else { TRIES };
-        (0..tries).filter_map(|_| draw(random)).find(|spot| self.is_free(thing, *spot))
+        let shape = parts(&thing.mesh);
+        (0..tries).filter_map(|_| draw(random)).find(|spot| self.admits(thing, &shape, *spot))
     }
 
     /// Whether nothing is in the way of `thing` at `spot`.
     pub fn is_free(&self, thing: &Thing, spot: Spot) -> bool {
-        let mut solid = Solid::of(&spot.pose, thing.size);
-        solid.half[0] += MARGIN_M;
-        solid.half[1] += MARGIN_M;
-        let reach = libm::hypot(solid.half[0], solid.half[1]);
-        let [x, y, _] = solid.centre;
-        let at_wall = self.house.wall_thickness_m / 2.0 + reach;
-        // Exact only for round things, but safe: nothing is put into a wall.
-        let in_wall = spot.support.is_none()
-            && self.walls.iter().any(|wall| to_segment([x, y], *wall) < at_wall);
-        !in_wall
-            && self
-                .present()
-                .filter(|n| Some(*n) != spot.support && self.thing(*n).name != thing.name)
-                .all(|n| {
-                    let other = self.thing(n);
-                    !solid.meets(&Solid::of(&other.pose, other.size))
-                })
+        self.admits(thing, &parts(&thing.mesh), spot)
+    }
+
+    fn admits(&self, thing: &Thing, shape: &[([f64; 3], [f64; 3])], spot: Spot) -> bool {
+        let own = (0..self.len()).find(|n| self.thing(*n).name == thing.name);
+        let wide = |(low, high): &([f64; 3], [f64; 3])| {
+            let mut block = Block::of(&spot.pose, *low, *high);
+            block.half = block.half.map(|half| half + MARGIN_M);
+            block
+        };
+        let blocks: Vec<Block> = shape.iter().map(wide).collect();
+        self.space.has_room_for(&blocks, own)
     }
 }
 
@@ -346,10 +349,9 @@ fn on_surface(
         return None;
     }
     let world_from_support = support.pose.isometry();
-    let inner = Solid { centre: [0.0; 3], half: half(thing), yaw: turn - yaw(&support.pose) };
-    let reach = |axis: usize| {
-        inner.corners().iter().map(|corner| corner[axis].abs()).fold(0.0, f64::max) + MARGIN_M
-    };
+    let ([hx, hy, _], inner) = (half(thing), turn - yaw(&support.pose));
+    let (sin, cos) = (libm::sin(inner).abs(), libm::cos(inner).abs());
+    let reach = |axis: usize| [hx * cos + hy * sin, hx * sin + hy * cos][axis] + MARGIN_M;
     let range = |axis: usize| (surface.min[axis] + reach(axis), surface.max[axis] - reach(axis));
     let ((x0, x1), (y0, y1)) = (range(0), range(1));
     if x0 > x1 || y0 > y1 {

@@ -4,9 +4,11 @@
 //! endian. Data of images is borrowed. Units and frames are those of ROS: metres, seconds,
 //! unit quaternions; optical frames look along z, x to the right, y down (REP 103).
 
+mod camera;
 mod cdr;
 mod messages;
 
+pub use camera::{CameraInfoError, camera_info, camera_of};
 pub use messages::{
     CameraInfo, CompressedImage, Header, Image, RegionOfInterest, Time, TransformStamped,
     decode_camera_info, decode_compressed_image, decode_image, decode_tf, encode_camera_info,

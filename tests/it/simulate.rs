@@ -64,7 +64,10 @@ fn the_papers_mission_really_changes_what_the_paper_says() {
     assert_eq!(place(&before, "towel").len(), place(&after, "towel").len() + 1);
     assert_eq!(place(&before, "banana").len(), place(&after, "banana").len() + 1);
     assert_eq!(place(&after, "tv remote"), ["living room/sofa"]);
-    assert!(place(&before, "mug").contains(&"kitchen/counter".to_owned()) || !place(&before, "mug").is_empty());
+    assert!(
+        place(&before, "mug").contains(&"kitchen/counter".to_owned())
+            || !place(&before, "mug").is_empty()
+    );
     assert!(place(&after, "mug").iter().any(|place| place.starts_with("bedroom/")));
     assert!(place(&after, "book").contains(&"bedroom/bed".to_owned()));
     // What the robot did itself is noticed; what people did needs eyes and ears.
@@ -96,9 +99,8 @@ fn the_recording_holds_inputs_only_and_the_truth_is_apart() {
     let leaked = |topic: &&str| forbidden.iter().any(|prefix| topic.starts_with(prefix));
     assert!(!topics.iter().any(|topic| leaked(topic)), "{topics:?}");
     // The graph that the robot starts from is that of the truth.
-    let start = |path: &Path| {
-        Recording::open(path).unwrap().state_at(At::Start, 1).unwrap().graph().hash()
-    };
+    let start =
+        |path: &Path| Recording::open(path).unwrap().state_at(At::Start, 1).unwrap().graph().hash();
     assert_eq!(start(&path), start(&truth));
 }
 

@@ -133,6 +133,21 @@ impl Space {
         self.put(self.things.len() - 1, Some(&thing.pose));
     }
 
+    /// The walls; x of each runs along it.
+    pub fn walls(&self) -> &[Block] {
+        &self.walls
+    }
+
+    /// The parts of thing number `n`; none while it is nowhere.
+    pub fn parts_of(&self, n: usize) -> &[Block] {
+        self.things[n].as_deref().unwrap_or_default()
+    }
+
+    /// Whether something with these parts could be there; thing number `except` is not looked at.
+    pub fn has_room_for(&self, parts: &[Block], except: Option<usize>) -> bool {
+        self.collision(except.unwrap_or(usize::MAX), parts, TOUCH_M).is_ok()
+    }
+
     /// Thing number `n` is now somewhere else, or nowhere.
     pub fn put(&mut self, n: usize, pose: Option<&Pose>) {
         self.things[n] = pose.map(|pose| self.blocks(n, pose));

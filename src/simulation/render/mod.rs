@@ -19,5 +19,7 @@ mod vector;
 mod visible;
 
 pub use frame::Frame;
+pub(super) use frame::millimetres;
 pub use light::{Ambient, Lamp, Lighting};
 pub use scene::{InstanceId, RayHit, Scene};
+pub(super) use tone::{encode, linear};

@@ -20,7 +20,7 @@ const TILE: usize = 4;
 /// Rays of a sample to its lamp.
 const LAMP_RAYS: usize = 1;
 /// Rays of a sample around it.
-const AROUND_RAYS: usize = 2;
+const AROUND_RAYS: usize = 1;
 /// How far away a surface still takes away light from all around, metres.
 const REACH_M: f32 = 0.6;
 /// Rays start so far from their surface, metres.

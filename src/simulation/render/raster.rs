@@ -193,18 +193,25 @@ fn draw(nearness: &mut [f32], seen: &mut [u32], start: f32, step: f32, facet: u3
 impl Facet {
     /// First and last column of a row that the facet covers.
     fn span(&self, row: f64, width: usize) -> Option<(usize, usize)> {
-        let (mut from, mut to) = (0.0_f64, (width - 1) as f64);
+        let last = (width - 1) as f64;
+        let (mut from, mut to) = (0.0_f64, last);
         for [du, dv, constant] in self.edges {
             let rest = dv * row + constant;
             if du > 0.0 {
-                from = from.max((-rest / du).ceil());
+                from = from.max(-rest / du);
             } else if du < 0.0 {
-                to = to.min((-rest / du).floor());
+                to = to.min(-rest / du);
             } else if rest < 0.0 {
                 return None;
             }
         }
-        (from <= to).then_some((from as usize, to as usize))
+        if from > to {
+            return None;
+        }
+        // Both lie in the picture now. `ceil` and `floor` would be calls on most machines.
+        let (first, last) = (from as u32, to as u32);
+        let first = first + u32::from(f64::from(first) < from);
+        (first <= last).then_some((first as usize, last as usize))
     }
 
     fn at(&self, u: f64, v: f64) -> Visible {

@@ -3,7 +3,7 @@
 //! Stripes and checks are averaged over what a pixel covers, so that they fade where they are
 //! finer than the picture.
 
-use super::vector::{V3, mix, scale};
+use super::vector::{V3, floor, mix, scale};
 use crate::simulation::mesh::{Material, Texture};
 
 /// How much longer a speck of grain is along x than across.
@@ -52,13 +52,13 @@ fn square_wave(at: f32, width: f32) -> f32 {
 
 /// An integral of the square wave: up and down between 0 and ½.
 fn triangle_wave(at: f32) -> f32 {
-    let within = at - at.floor();
+    let within = at - floor(at);
     within.min(1.0 - within)
 }
 
 /// Smooth noise between 0 and 1 in cells of one unit.
 fn grain(at: V3) -> f32 {
-    let cell = at.map(f32::floor);
+    let cell = at.map(floor);
     let [x, y, z] = [0, 1, 2].map(|axis| {
         let within = at[axis] - cell[axis];
         within * within * (3.0 - 2.0 * within)

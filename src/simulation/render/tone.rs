@@ -23,7 +23,7 @@ static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
 });
 
 /// Linear light of an sRGB colour of parts 0 to 1 (IEC 61966-2-1).
-pub(super) fn linear(srgb: [f32; 3]) -> V3 {
+pub(in crate::simulation) fn linear(srgb: [f32; 3]) -> V3 {
     srgb.map(|part| {
         let part = f64::from(part.clamp(0.0, 1.0));
         let light =
@@ -33,7 +33,7 @@ pub(super) fn linear(srgb: [f32; 3]) -> V3 {
 }
 
 /// The sRGB bytes for linear light of any strength.
-pub(super) fn encode(light: V3) -> [u8; 3] {
+pub(in crate::simulation) fn encode(light: V3) -> [u8; 3] {
     let table: &[u8] = &ENCODED;
     light.map(|part| table[(shoulder(part) * (STEPS - 1) as f32 + 0.5) as usize])
 }

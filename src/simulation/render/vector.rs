@@ -1,7 +1,7 @@
 //! Plain vectors of three floats: what is computed per pixel stays readable and quick.
 
 /// (x, y, z).
-pub(super) type V3 = [f32; 3];
+pub(in crate::simulation) type V3 = [f32; 3];
 
 pub(super) fn add(a: V3, b: V3) -> V3 {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
@@ -36,6 +36,13 @@ pub(super) fn mix(a: V3, b: V3, share_of_b: f32) -> V3 {
 pub(super) fn unit(a: V3) -> V3 {
     let length = dot(a, a).sqrt();
     if length > 0.0 { scale(a, 1.0 / length) } else { [0.0; 3] }
+}
+
+/// The whole number below. Quicker than `f32::floor`, which is a call on most machines; for what
+/// fits 32 bits.
+pub(super) fn floor(a: f32) -> f32 {
+    let cut = a as i32 as f32;
+    if cut > a { cut - 1.0 } else { cut }
 }
 
 /// A rigid motion: `parent_from_child`.

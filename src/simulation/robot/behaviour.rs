@@ -2,14 +2,15 @@
 
 use std::collections::VecDeque;
 
-use super::grid::{Cell, Footprint, Grid, contains};
+use super::grid::{Cell, Grid};
 use super::motion::{Body, Leg, wrapped};
 use super::path::{distance, plan, reachable};
 use super::views::viewpoints;
 use crate::event::Status;
+use crate::simulation::blocks::Block;
 use crate::simulation::random::Random;
 use crate::simulation::scenario::{Errand, RobotConfig};
-use crate::simulation::solid::Solid;
+use crate::simulation::shapes::polygon::contains;
 use crate::simulation::world::{Presence, Spot, TrueWorld};
 
 /// What the robot reports of a task, and what it did to the world.
@@ -27,6 +28,8 @@ pub struct Report {
 const GRASP_S: f64 = 1.0;
 /// Things lower than this are in the robot's way, metres.
 const BODY_HEIGHT_M: f64 = 1.4;
+/// It drives over what is lower than this, metres.
+const STEP_M: f64 = 0.03;
 /// Half the picture, and some to spare: what one look covers to either side, radians.
 const LOOK_HALF: [f64; 2] = [0.42, 0.28];
 /// A look takes this long, seconds: two pictures at 2 Hz.
@@ -45,8 +48,8 @@ pub struct Mind {
     views: VecDeque<[f64; 2]>,
     /// Where things stood when the robot learned the house: what it goes to look at.
     targets: Vec<(usize, [f64; 3])>,
-    /// The floor, and which things it was made for.
-    floor: Option<(Vec<Footprint>, Grid)>,
+    /// The floor, and what it was made for.
+    floor: Option<(Vec<Block>, Grid)>,
 }
 
 /// An errand being run.
@@ -252,8 +255,8 @@ impl Mind {
                 .map(|(_, at)| [at[0], at[1]])
                 .collect();
             let grid = self.grid(world);
-            let ways = reachable(grid, at);
-            self.views = viewpoints(world.house(), grid, &ways, room, &targets).into();
+            let (ways, walls) = (reachable(grid, at), world.space().walls());
+            self.views = viewpoints(world.house(), (grid, walls), &ways, room, &targets).into();
         }
         // The nearest first.
         let nearest = (0..self.views.len())
@@ -299,16 +302,10 @@ impl Mind {
 
     /// The floor as it is now.
     fn grid(&mut self, world: &TrueWorld) -> &Grid {
-        let obstacles: Vec<Footprint> = world
-            .present()
-            .map(|n| Solid::of(&world.thing(n).pose, world.thing(n).size))
-            .filter(|solid| solid.bottom() < BODY_HEIGHT_M && solid.top() > 0.05)
-            .map(|solid| Footprint {
-                centre: [solid.centre[0], solid.centre[1]],
-                half: [solid.half[0], solid.half[1]],
-                yaw: solid.yaw,
-            })
-            .collect();
+        let things = world.present().flat_map(|n| world.space().parts_of(n));
+        let in_the_way = |block: &&Block| block.z[0] < BODY_HEIGHT_M && block.z[1] > STEP_M;
+        let obstacles: Vec<Block> =
+            world.space().walls().iter().chain(things).filter(in_the_way).copied().collect();
         let radius = self.config.body.radius_m;
         let floor = self.floor.take().filter(|(made_for, _)| *made_for == obstacles);
         let made = floor.unwrap_or_else(|| {

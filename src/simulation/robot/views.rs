@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::grid::{Cell, Grid, contains, to_segment};
+use super::grid::{Cell, Grid, to_segment};
 use super::path::distance;
+use crate::simulation::blocks::Block;
 use crate::simulation::house::House;
+use crate::simulation::shapes::polygon::contains;
 
 /// Things are seen well from this near and this far, metres.
 const SEEN_M: std::ops::Range<f64> = 0.5..3.2;
@@ -19,12 +21,12 @@ const MOST: usize = 3;
 /// Greedy cover: the point that sees most, then the one that sees most of the rest.
 pub fn viewpoints(
     house: &House,
-    grid: &Grid,
+    (grid, walls): (&Grid, &[Block]),
     reachable: &BTreeMap<Cell, f64>,
     room: usize,
     targets: &[[f64; 2]],
 ) -> Vec<[f64; 2]> {
-    let walls = super::grid::walls(house);
+    let walls: Vec<[[f64; 2]; 2]> = walls.iter().filter(|wall| wall.z[0] < 1.0).map(line).collect();
     let outline = &house.rooms[room].outline;
     let candidates: Vec<(Cell, [f64; 2])> = reachable
         .keys()
@@ -52,6 +54,12 @@ pub fn viewpoints(
         chosen.push(*point);
     }
     chosen
+}
+
+/// The middle line of a wall.
+fn line(wall: &Block) -> [[f64; 2]; 2] {
+    let ([x, y], [c, s], half) = (wall.centre, wall.along, wall.half[0]);
+    [[x - half * c, y - half * s], [x + half * c, y + half * s]]
 }
 
 /// Whether the line from `a` to `b` crosses a wall.

@@ -3,14 +3,11 @@
 use std::sync::Arc;
 
 use super::{NewThing, Scenario, VirtualAction};
-use crate::geometry::{Pose, Size};
 use crate::graph::{Label, LabelError};
 use crate::simulation::house::{House, Thing};
 use crate::simulation::random::Random;
-use crate::simulation::shapes;
 use crate::simulation::world::{PlaceError, Presence, TrueWorld};
 use crate::time::Span;
-use crate::updater::Config;
 
 /// Why a scenario cannot happen: which field, and what is wrong with it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -211,31 +208,4 @@ fn new_thing(world: &TrueWorld, new: &NewThing) -> Result<Thing, ActionError> {
     }
     let label = Label::new(&new.label)?;
     Ok(Thing::of_class(name, label, new.size)?)
-}
-
-impl Thing {
-    /// Something people carry about, nowhere in particular: drawn as its class, as large as that
-    /// usually is where no size (metres) is given.
-    pub fn of_class(
-        name: String,
-        label: Label,
-        size: Option<[f64; 3]>,
-    ) -> Result<Self, crate::geometry::GeometryError> {
-        let class = shapes::class_named(label.as_str());
-        let usual = class.map_or([0.15; 3], |class| class.usual_m);
-        let [w, h, d] = size.unwrap_or(usual);
-        let size = Size::new(w, h, d)?;
-        Ok(Self {
-            name,
-            pose: Pose::IDENTITY,
-            size,
-            mesh: Arc::new(shapes::shape(label.as_str(), size)),
-            movable: true,
-            decay_rate: Config::default().added_decay_rate,
-            room: 0,
-            support: None,
-            surfaces: shapes::surfaces(label.as_str(), size),
-            label,
-        })
-    }
 }

@@ -206,7 +206,7 @@ impl Draft {
             let place = Place { on: Some(on), ..Place::default() };
             let spot = self.world.place(thing, &place, &mut self.random).ok()?;
             let [x, y, _] = spot.pose.position();
-            let yaw = crate::simulation::solid::yaw(&spot.pose);
+            let yaw = crate::simulation::blocks::yaw(&spot.pose);
             let (at, yaw_deg) = (Some([x, y]), Some(yaw.to_degrees()));
             Some(Place { at, yaw_deg, ..place })
         })

@@ -38,7 +38,7 @@ fn thing(name: &str, room: usize, on: Option<usize>, at: [f64; 3], size: [f64; 3
         label: label(name),
         pose: Pose::at(at).unwrap(),
         size: Size::new(w, h, d).unwrap(),
-        mesh: Arc::default(),
+        mesh: Arc::new(super::shapes::shape(name, Size::new(w, h, d).unwrap())),
         movable: d < 0.3,
         decay_rate: if d < 0.3 { 1e-4 } else { 0.0 },
         room,

@@ -4,23 +4,27 @@ use proptest::prelude::*;
 
 use super::small_house;
 use crate::event::Status;
-use crate::simulation::robot::grid::{Footprint, Grid, contains, to_segment, walls};
+use crate::simulation::blocks::Block;
+use crate::simulation::house::Space;
+use crate::simulation::robot::grid::Grid;
 use crate::simulation::robot::motion::{Body, BodyConfig, wrapped};
 use crate::simulation::robot::path::{length, plan};
 use crate::simulation::scenario::Scenario;
+use crate::simulation::shapes::polygon::contains;
 use crate::simulation::story::{Moment, Story, StoryError};
 
 const RADIUS_M: f64 = 0.22;
 
+/// Walls and things in the way of a robot.
+fn obstacles(house: &crate::simulation::house::House) -> Vec<Block> {
+    let space = Space::new(house);
+    let things = (0..house.things.len()).flat_map(|n| space.parts_of(n));
+    space.walls().iter().chain(things).filter(|block| block.z[0] < 1.4).copied().collect()
+}
+
 fn grid() -> (std::sync::Arc<crate::simulation::house::House>, Grid) {
     let house = small_house();
-    let obstacles: Vec<Footprint> = house.things[..2]
-        .iter()
-        .map(|thing| {
-            let ([x, y, _], [w, h, _]) = (thing.pose.position(), thing.size.metres());
-            Footprint { centre: [x, y], half: [w / 2.0, h / 2.0], yaw: 0.0 }
-        })
-        .collect();
+    let obstacles = obstacles(&house);
     let grid = Grid::new(&house, &obstacles, RADIUS_M);
     (house, grid)
 }
@@ -40,9 +44,9 @@ proptest! {
             for n in 0..=50 {
                 let t = f64::from(n) / 50.0;
                 let at = [0, 1].map(|axis| pair[0][axis] + (pair[1][axis] - pair[0][axis]) * t);
-                let wall = walls(&house).iter().map(|wall| to_segment(at, *wall)).fold(9.0, f64::min);
+                let wall = obstacles(&house).iter().map(|block| block.distance(at)).fold(9.0, f64::min);
                 // To within a cell of the grid.
-                prop_assert!(wall > RADIUS_M + 0.05 - 0.06, "{at:?} is {wall} m from a wall");
+                prop_assert!(wall > RADIUS_M - 0.06, "{at:?} is {wall} m from a wall");
                 prop_assert!(house.rooms.iter().any(|room| contains(&room.outline, at)) || (at[0] - 4.0).abs() < 0.06);
             }
         }
@@ -53,7 +57,7 @@ proptest! {
 fn there_is_no_way_through_a_wall() {
     let mut house = (*small_house()).clone();
     house.doors.clear();
-    let grid = Grid::new(&house, &[], RADIUS_M);
+    let grid = Grid::new(&house, &obstacles(&house), RADIUS_M);
     assert_eq!(plan(&grid, [1.0, 1.0], [6.0, 1.0]), None);
 }
 

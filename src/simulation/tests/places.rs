@@ -3,42 +3,25 @@
 use proptest::prelude::*;
 
 use super::{small_house, thing};
+use crate::simulation::house::around;
 use crate::simulation::random::Random;
 use crate::simulation::scenario::{Place, Scenario};
-use crate::simulation::solid::Solid;
 use crate::simulation::world::TrueWorld;
 
 proptest! {
-    #[test]
-    fn boxes_meet_alike_from_either_side(
-        a in (-1.0..1.0_f64, -1.0..1.0_f64, -3.0..3.0_f64),
-        b in (-1.0..1.0_f64, -1.0..1.0_f64, -3.0..3.0_f64),
-    ) {
-        let solid = |(x, y, yaw)| Solid { centre: [x, y, 0.0], half: [0.5, 0.2, 0.1], yaw };
-        let (a, b) = (solid(a), solid(b));
-        prop_assert!((a.depth(&b) - b.depth(&a)).abs() < 1e-12);
-        let apart = libm::hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]);
-        if apart > 2.0 * libm::hypot(0.5, 0.2) {
-            prop_assert!(!a.meets(&b));
-        }
-        if apart < 0.4 - 0.01 {
-            prop_assert!(a.meets(&b));
-        }
-    }
-
     #[test]
     fn what_is_put_on_a_table_lies_on_it_and_meets_nothing(seed: u64) {
         let world = TrueWorld::new(small_house());
         let plate = thing("plate", 0, None, [0.0; 3], [0.25, 0.25, 0.02]);
         let place = Place { on: Some("table".to_owned()), ..Place::default() };
         let spot = world.place(&plate, &place, &mut Random::new(seed, 0)).unwrap();
-        let (plate, table) = (Solid::of(&spot.pose, plate.size), Solid::of(&world.thing(0).pose, world.thing(0).size));
-        prop_assert!((plate.bottom() - table.top()).abs() < 1e-5);
+        let (plate, table) = (around(&spot.pose, plate.size), around(&world.thing(0).pose, world.thing(0).size));
+        prop_assert!((plate.z[0] - table.z[1]).abs() < 1e-5);
         for corner in plate.corners() {
             prop_assert!((corner[0] - 1.0).abs() <= 0.6 && (corner[1] - 2.2).abs() <= 0.4);
         }
-        let mug = Solid::of(&world.thing(2).pose, world.thing(2).size);
-        prop_assert!(!plate.meets(&mug));
+        let mug = around(&world.thing(2).pose, world.thing(2).size);
+        prop_assert!(plate.depth(&mug) < 0.0);
         prop_assert_eq!((spot.room, spot.support), (0, Some(0)));
     }
 }

@@ -2,27 +2,27 @@
 
 use std::sync::Arc;
 
-use crate::simulation::house::{self, House};
+use crate::simulation::blocks::Block;
+use crate::simulation::house::{self, House, around};
 use crate::simulation::random::Random;
 use crate::simulation::scenario::check::act;
 use crate::simulation::scenario::{Draw, Scenario, generate, paper_mission};
-use crate::simulation::solid::Solid;
 use crate::simulation::world::TrueWorld;
 
 fn built_in(name: &str) -> Arc<House> {
     Arc::new(house::load(name).unwrap())
 }
 
-fn solid(world: &TrueWorld, n: usize) -> Solid {
+fn block(world: &TrueWorld, n: usize) -> Block {
     let thing = world.thing(n);
-    Solid::of(&thing.pose, thing.size)
+    around(&thing.pose, thing.size)
 }
 
 /// What was put somewhere lies level on a surface of its support, and within it.
 fn check_lies_on_its_support(world: &TrueWorld, n: usize, what: &str) {
-    let (thing, lying) = (world.thing(n), solid(world, n));
+    let (thing, lying) = (world.thing(n), block(world, n));
     let Some(support) = thing.support else {
-        assert!(lying.bottom().abs() < 1e-4, "{what}: {} floats over the floor", thing.name);
+        assert!(lying.z[0].abs() < 1e-4, "{what}: {} floats over the floor", thing.name);
         return;
     };
     let support = world.thing(support);
@@ -34,20 +34,15 @@ fn check_lies_on_its_support(world: &TrueWorld, n: usize, what: &str) {
                 && (surface.min[1]..=surface.max[1]).contains(&at.y)
         });
         let level = support.pose.position()[2] + surface.z;
-        inside && (lying.bottom() - level).abs() < 1e-4
+        inside && (lying.z[0] - level).abs() < 1e-4
     });
     assert!(carries, "{what}: {} does not lie on {}", thing.name, support.name);
 }
 
+/// Part by part: a book may lie between the boards of a shelf.
 fn check_meets_nothing(world: &TrueWorld, n: usize, what: &str) {
-    let on_it = |other: usize| world.thing(other).support == Some(n);
-    for other in world.present() {
-        let apart = other == n || world.thing(n).support == Some(other) || on_it(other);
-        if !apart {
-            let meets = solid(world, n).meets(&solid(world, other));
-            let (a, b) = (&world.thing(n).name, &world.thing(other).name);
-            assert!(!meets, "{what}: {a} is in {b}");
-        }
+    if let Err(misfit) = world.space().is_free(n, &world.thing(n).pose) {
+        panic!("{what}: {}: {misfit}", world.thing(n).name);
     }
 }
 
