@@ -257,8 +257,12 @@ impl TrueWorld {
             });
         }
         let spot = |pose| Spot { pose, room: support.room, support: Some(on) };
-        self.first_free(thing, place, random, &mut |random| {
-            let surface = random.pick(&surfaces)?;
+        // The first of several that are one above the other, if the place is given.
+        let mut next = surfaces.iter();
+        let exact = place.is_exact();
+        let tries = if exact { surfaces.len() } else { TRIES };
+        self.first_free(thing, tries, random, &mut |random| {
+            let surface = if exact { next.next() } else { random.pick(&surfaces) }?;
             let (at, turn) = on_surface(thing, support, surface, place, random)?;
             upright(at, turn).map(spot)
         })
@@ -279,7 +283,8 @@ impl TrueWorld {
         };
         let ((x0, x1), (y0, y1)) = (range(0), range(1));
         let z = thing.size.metres()[2] / 2.0;
-        self.first_free(thing, place, random, &mut |random| {
+        let tries = if place.is_exact() { 1 } else { TRIES };
+        self.first_free(thing, tries, random, &mut |random| {
             let drawn = [random.between(x0, x1), random.between(y0, y1)];
             let turn = turn(place, random);
             let [x, y] = place.at.unwrap_or(drawn);
@@ -295,11 +300,10 @@ impl TrueWorld {
     fn first_free(
         &self,
         thing: &Thing,
-        place: &Place,
+        tries: usize,
         random: &mut Random,
         draw: &mut dyn FnMut(&mut Random) -> Option<Spot>,
     ) -> Option<Spot> {
-        let tries = if place.at.is_some() && place.yaw_deg.is_some() { 1 } else { TRIES };
         let shape = parts(&thing.mesh);
         (0..tries).filter_map(|_| draw(random)).find(|spot| self.admits(thing, &shape, *spot))
     }
@@ -362,7 +366,10 @@ fn on_surface(
         None => drawn,
         Some([x, y]) => {
             let at = world_from_support.inverse() * nalgebra::Point3::new(x, y, 0.0);
-            ((x0..=x1).contains(&at.x) && (y0..=y1).contains(&at.y)).then_some([at.x, at.y])?
+            // To within the grid of poses.
+            let within =
+                |value: f64, low: f64, high: f64| value > low - 1e-5 && value < high + 1e-5;
+            (within(at.x, x0, x1) && within(at.y, y0, y1)).then_some([at.x, at.y])?
         }
     };
     let at = world_from_support * nalgebra::Point3::new(x, y, surface.z + hz);

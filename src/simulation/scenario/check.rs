@@ -31,7 +31,7 @@ impl Scenario {
     pub fn check(&self, house: &Arc<House>) -> Result<(), ScenarioError> {
         self.check_camera()?;
         self.check_robot(house)?;
-        self.rehearse(house)
+        self.rehearse(house, &mut |_| {})
     }
 
     fn check_camera(&self) -> Result<(), ScenarioError> {
@@ -74,8 +74,13 @@ impl Scenario {
         Ok(())
     }
 
-    /// Lets everything happen in order, robot and all, on paper.
-    fn rehearse(&self, house: &Arc<House>) -> Result<(), ScenarioError> {
+    /// Lets everything happen in order, robot and all, on paper; `after` is shown the world after
+    /// each step.
+    pub fn rehearse(
+        &self,
+        house: &Arc<House>,
+        after: &mut dyn FnMut(&TrueWorld),
+    ) -> Result<(), ScenarioError> {
         let mut world = TrueWorld::new(house.clone());
         let mut random = Random::new(self.seed, 0);
         for step in self.in_order() {
@@ -96,6 +101,7 @@ impl Scenario {
                     world.put(thing, spot.map_err(|error| failed("place", error))?);
                 }
             }
+            after(&world);
         }
         Ok(())
     }

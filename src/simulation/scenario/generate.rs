@@ -73,21 +73,22 @@ pub fn generate(name: &str, house: &Arc<House>, seed: u64, draw: Draw) -> Scenar
             noise: NoiseConfig::default(),
         },
     };
-    let mut kinds: Vec<Kind> = [
-        (draw.removed, Kind::Remove),
-        (draw.moved, Kind::Move),
-        (draw.added, Kind::Add),
-        (draw.tasks, Kind::Carry),
-    ]
-    .into_iter()
-    .flat_map(|(count, kind)| std::iter::repeat_n(kind, count as usize))
-    .collect();
-    let spacing = draw.within_s / kinds.len().max(1) as f64;
+    let mut kinds: Vec<Kind> =
+        [(draw.removed, Kind::Remove), (draw.moved, Kind::Move), (draw.added, Kind::Add)]
+            .into_iter()
+            .flat_map(|(count, kind)| std::iter::repeat_n(kind, count as usize))
+            .collect();
+    let spacing = draw.within_s / (kinds.len() + draw.tasks as usize).max(1) as f64;
     let mut time_s = 1.0;
     while !kinds.is_empty() {
         let kind = kinds.swap_remove(draft.random.below(kinds.len()));
         draft.happen(kind, time_s, draw.told);
         time_s += draft.random.between(0.2, 1.0) * spacing;
+    }
+    // Errands come last: the robot takes its time, and people need not wait for it.
+    for _ in 0..draw.tasks {
+        draft.errand(seconds(time_s));
+        time_s += spacing;
     }
     draft.scenario
 }
@@ -97,7 +98,6 @@ enum Kind {
     Remove,
     Move,
     Add,
-    Carry,
 }
 
 struct Draft {
@@ -119,7 +119,6 @@ impl Draft {
             Kind::Remove => self.removal(time),
             Kind::Move => self.relocation(time),
             Kind::Add => self.addition(time),
-            Kind::Carry => return self.errand(time),
         };
         let Some((action, sentence)) = tried else { return };
         let Ok(done) = act(&mut self.world, &action, &mut self.random.clone()) else { return };

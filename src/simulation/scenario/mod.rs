@@ -248,6 +248,13 @@ mod text {
     }
 }
 
+impl Place {
+    /// Whether nothing is left to chance.
+    pub fn is_exact(&self) -> bool {
+        self.at.is_some() && self.yaw_deg.is_some()
+    }
+}
+
 impl Scenario {
     /// Reads a scenario file; says where and why not.
     pub fn from_json(text: &str) -> Result<Self, serde_json::Error> {

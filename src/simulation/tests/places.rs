@@ -20,8 +20,8 @@ proptest! {
         for corner in plate.corners() {
             prop_assert!((corner[0] - 1.0).abs() <= 0.6 && (corner[1] - 2.2).abs() <= 0.4);
         }
-        let mug = around(&world.thing(2).pose, world.thing(2).size);
-        prop_assert!(plate.depth(&mug) < 0.0);
+        let mug = world.space().parts_of(2);
+        prop_assert!(mug.iter().all(|part| plate.depth(part) < 0.0));
         prop_assert_eq!((spot.room, spot.support), (0, Some(0)));
     }
 }

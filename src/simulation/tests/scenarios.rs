@@ -4,8 +4,6 @@ use std::sync::Arc;
 
 use crate::simulation::blocks::Block;
 use crate::simulation::house::{self, House, around};
-use crate::simulation::random::Random;
-use crate::simulation::scenario::check::act;
 use crate::simulation::scenario::{Draw, Scenario, generate, paper_mission};
 use crate::simulation::world::TrueWorld;
 
@@ -46,22 +44,20 @@ fn check_meets_nothing(world: &TrueWorld, n: usize, what: &str) {
     }
 }
 
-/// Lets people do everything, and checks each thing that they put somewhere.
+/// Lets everything happen, and checks each thing that was put somewhere.
 fn check_scenario(scenario: &Scenario, house: &Arc<House>) {
     scenario.check(house).unwrap_or_else(|error| panic!("{}: {error}", scenario.name));
-    let mut world = TrueWorld::new(house.clone());
-    let mut random = Random::new(scenario.seed, 0);
-    for action in &scenario.actions {
-        act(&mut world, action, &mut random).unwrap();
-        let what = format!("{} in {}", scenario.name, scenario.house);
-        for n in world.present().collect::<Vec<_>>() {
+    let what = format!("{} in {}", scenario.name, scenario.house);
+    let mut check = |world: &TrueWorld| {
+        for n in world.present() {
             let touched = n >= house.things.len() || world.thing(n).pose != house.things[n].pose;
             if touched {
-                check_lies_on_its_support(&world, n, &what);
-                check_meets_nothing(&world, n, &what);
+                check_lies_on_its_support(world, n, &what);
+                check_meets_nothing(world, n, &what);
             }
         }
-    }
+    };
+    scenario.rehearse(house, &mut check).unwrap();
 }
 
 #[test]
