@@ -92,6 +92,26 @@ fn unit([x, y]: [f64; 2]) -> [f64; 2] {
     [x / length, y / length]
 }
 
+/// Lowest and highest corner of a box along the axes of the world that holds all of `blocks`.
+pub fn bounds(blocks: &[Block]) -> [[f64; 3]; 2] {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for block in blocks {
+        let reach = [block.reach([1.0, 0.0]), block.reach([0.0, 1.0])];
+        for k in 0..2 {
+            bounds[0][k] = bounds[0][k].min(block.centre[k] - reach[k]);
+            bounds[1][k] = bounds[1][k].max(block.centre[k] + reach[k]);
+        }
+        bounds[0][2] = bounds[0][2].min(block.z[0]);
+        bounds[1][2] = bounds[1][2].max(block.z[1]);
+    }
+    bounds
+}
+
+/// Whether two boxes along the axes of the world are apart.
+pub fn apart(a: &[[f64; 3]; 2], b: &[[f64; 3]; 2]) -> bool {
+    (0..3).any(|k| a[1][k] < b[0][k] || b[1][k] < a[0][k])
+}
+
 /// How deep two sets of boxes reach into each other at most.
 pub fn depth(a: &[Block], b: &[Block]) -> f64 {
     let pairs = a.iter().flat_map(|a| b.iter().map(|b| a.depth(b)));

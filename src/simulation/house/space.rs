@@ -2,7 +2,7 @@
 
 use super::{House, Surface, Thing};
 use crate::geometry::{Pose, Size};
-use crate::simulation::blocks::{Block, depth, parts};
+use crate::simulation::blocks::{Block, apart, bounds, depth, parts};
 
 /// Boxes that reach into each other by less than this only touch, metres.
 pub const TOUCH_M: f64 = 0.003;
@@ -108,11 +108,16 @@ pub fn around(pose: &Pose, size: Size) -> Block {
     Block::of(pose, half.map(|h| -h), half)
 }
 
+type Bounds = [[f64; 3]; 2];
+
 /// What takes up space in a house: walls, and the parts of things; kept up to date while things
 /// are moved.
 #[derive(Clone, Debug)]
 pub struct Space {
     walls: Vec<Block>,
+    /// Boxes around the walls and around what each thing is made of: most are far apart.
+    wall_bounds: Vec<Bounds>,
+    thing_bounds: Vec<Bounds>,
     shapes: Vec<Vec<([f64; 3], [f64; 3])>>,
     things: Vec<Option<Vec<Block>>>,
 }
@@ -120,8 +125,11 @@ pub struct Space {
 impl Space {
     /// A house as it was built.
     pub fn new(house: &House) -> Self {
-        let walls = house.walls().iter().map(|slab| around(&slab.pose, slab.size)).collect();
-        let mut space = Self { walls, shapes: Vec::new(), things: Vec::new() };
+        let walls: Vec<Block> =
+            house.walls().iter().map(|slab| around(&slab.pose, slab.size)).collect();
+        let wall_bounds = walls.iter().map(|wall| bounds(&[*wall])).collect();
+        let (shapes, things, thing_bounds) = (Vec::new(), Vec::new(), Vec::new());
+        let mut space = Self { walls, wall_bounds, thing_bounds, shapes, things };
         house.things.iter().for_each(|thing| space.add(thing));
         space
     }
@@ -130,6 +138,7 @@ impl Space {
     pub fn add(&mut self, thing: &Thing) {
         self.shapes.push(parts(&thing.mesh));
         self.things.push(None);
+        self.thing_bounds.push(bounds(&[]));
         self.put(self.things.len() - 1, Some(&thing.pose));
     }
 
@@ -151,6 +160,7 @@ impl Space {
     /// Thing number `n` is now somewhere else, or nowhere.
     pub fn put(&mut self, n: usize, pose: Option<&Pose>) {
         self.things[n] = pose.map(|pose| self.blocks(n, pose));
+        self.thing_bounds[n] = bounds(self.parts_of(n));
     }
 
     fn blocks(&self, n: usize, pose: &Pose) -> Vec<Block> {
@@ -172,13 +182,16 @@ impl Space {
     }
 
     fn collision(&self, n: usize, own: &[Block], touch_m: f64) -> Result<(), Misfit> {
-        let by_m = depth(own, &self.walls);
-        if by_m > touch_m {
-            return Err(Misfit::Occupied { other: None, by_m });
+        let near = bounds(own);
+        for (wall, around) in self.walls.iter().zip(&self.wall_bounds) {
+            let by_m = if apart(&near, around) { 0.0 } else { depth(own, &[*wall]) };
+            if by_m > touch_m {
+                return Err(Misfit::Occupied { other: None, by_m });
+            }
         }
         for (other, blocks) in self.things.iter().enumerate() {
             let Some(blocks) = blocks.as_ref().filter(|_| other != n) else { continue };
-            if is_mat(blocks) != is_mat(own) {
+            if apart(&near, &self.thing_bounds[other]) || is_mat(blocks) != is_mat(own) {
                 continue;
             }
             let by_m = depth(own, blocks);
