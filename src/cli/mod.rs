@@ -7,11 +7,13 @@ mod bisect;
 mod demo;
 mod diff;
 mod export;
+mod house;
 mod import;
 mod info;
 mod ingest;
 mod log;
 mod output;
+mod plan;
 mod progress;
 mod recover;
 mod replay;
@@ -68,6 +70,8 @@ enum Command {
     Import(import::Import),
     Export(export::Export),
     Ingest(ingest::Ingest),
+    House(house::House),
+    Plan(plan::Plan),
     Demo(demo::Demo),
 }
 
@@ -122,6 +126,8 @@ impl Cli {
             Command::Import(args) => import::run(&args, out),
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
+            Command::House(args) => house::run(&args, out),
+            Command::Plan(args) => plan::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

@@ -33,8 +33,8 @@ pub use file::{
     AxisName, DoorFile, HouseFile, Look, ObjectFile, QuaternionFile, RoomFile, TextureFile,
 };
 pub use from_graph::{FromGraph, from_graph};
-pub use load::{Loaded, load, load_reported};
-pub use space::{Misfit, Space, SurfaceInWorld};
+pub use load::{FileKind, Loaded, kind, load, load_reported};
+pub use space::{Misfit, Space, SurfaceInWorld, around as footprint};
 pub use structure::Slab;
 
 /// One storey, known to be possible: no rooms overlap, nothing floats or stands in a wall.
