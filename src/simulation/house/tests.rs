@@ -136,7 +136,11 @@ fn what_does_not_fit_is_told_why() {
     let bottle = named(&house, "bottle");
     let [x, y, _] = house.things[bottle].pose.position();
     let into = Pose::at([x, y, thing.pose.position()[2]]).unwrap();
-    assert_eq!(fits(&into).map_err(|it| matches!(it, Misfit::Occupied { other: Some(n), .. } if n == bottle)), Err(true));
+    assert_eq!(
+        fits(&into)
+            .map_err(|it| matches!(it, Misfit::Occupied { other: Some(n), .. } if n == bottle)),
+        Err(true)
+    );
 }
 
 #[test]

@@ -12,7 +12,7 @@ mod furniture;
 mod kitchen;
 mod names;
 pub(in crate::simulation) mod paint;
-pub(in crate::simulation) mod polygon;
+pub mod polygon;
 mod sketch;
 mod tableware;
 mod textiles;

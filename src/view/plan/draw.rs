@@ -65,10 +65,7 @@ impl Page {
     }
 
     fn area(&self, points: &[[f64; 2]]) -> Area {
-        let points = self.all(points);
-        let least = |k: usize| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-        let most = |k: usize| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
-        [least(0), least(1), most(0), most(1)]
+        bounds(&self.all(points))
     }
 }
 
@@ -81,8 +78,9 @@ pub fn draw(plan: &Plan) -> String {
     svg.text([MARGIN, 28.0], 19.0, Anchor::Start, &plan.title, &title);
     floors(plan, &page, &mut svg);
     let order = order(plan);
+    let quiet = shows_changes(plan);
     for thing in &order {
-        footprint(thing, &page, &mut svg);
+        footprint(thing, quiet, &page, &mut svg);
     }
     walls(plan, &page, &mut svg);
     for thing in &order {
@@ -97,9 +95,19 @@ pub fn draw(plan: &Plan) -> String {
 /// What lies lower is drawn first; the places of things that are gone come last.
 fn order(plan: &Plan) -> Vec<&PlanThing> {
     let mut order: Vec<&PlanThing> = plan.things.iter().collect();
-    let rank = |thing: &PlanThing| (thing.change == Some(PlanChange::Removed), hangs(thing));
-    order.sort_by(|a, b| rank(a).cmp(&rank(b)).then(a.z[1].total_cmp(&b.z[1])));
+    let rank = |thing: &PlanThing| {
+        let level = (thing.z[0] * 20.0).round() as i64;
+        // A rug lies under all; a table stands over the chairs pushed under it.
+        let stands = thing.z[1] - thing.z[0] > 0.05;
+        (thing.change == Some(PlanChange::Removed), hangs(thing), thing.movable, level, stands)
+    };
+    order.sort_by(|a, b| rank(a).cmp(&rank(b)).then(b.z[1].total_cmp(&a.z[1])));
     order
+}
+
+/// Whether it is about what changed: small things that stayed are then drawn quietly.
+fn shows_changes(plan: &Plan) -> bool {
+    plan.things.iter().any(|thing| thing.change.is_some())
 }
 
 /// Above what one walks past: drawn as a thin line, as architects draw what is overhead.
@@ -147,7 +155,7 @@ fn door(ends: Vec<[f64; 2]>, svg: &mut Svg) {
     svg.path(&d, &Look::line(QUIET, 0.7));
 }
 
-fn footprint(thing: &PlanThing, page: &Page, svg: &mut Svg) {
+fn footprint(thing: &PlanThing, quiet: bool, page: &Page, svg: &mut Svg) {
     let corners = page.all(&thing.corners);
     if thing.change == Some(PlanChange::Removed) {
         return;
@@ -155,6 +163,7 @@ fn footprint(thing: &PlanThing, page: &Page, svg: &mut Svg) {
     let look = match (thing.probability, thing.movable) {
         _ if hangs(thing) => Look::line(HUNG_LINE, 0.8).dashed("4 3"),
         (Some(p), _) => Look::fill(&belief(p)).outlined(INK, 0.5),
+        (None, true) if quiet => Look::fill("#dfe6ee").outlined("#a9b8c8", 0.6),
         (None, true) => Look::fill(THING).outlined("#33557a", 0.6).with("fill-opacity", 0.85),
         (None, false) => Look::fill(FURNITURE).outlined(FURNITURE_LINE, 0.9),
     };
@@ -291,8 +300,16 @@ fn texts(plan: &Plan, order: &[&PlanThing], page: &Page, svg: &mut Svg) {
         let first = |thing: &PlanThing| (thing.change.is_none(), thing.movable);
         first(a).cmp(&first(b)).then(space(b).total_cmp(&space(a)))
     });
-    for thing in all {
-        label(thing, page, &mut labels, svg);
+    if shows_changes(plan) {
+        all.retain(|thing| thing.change.is_some() || !thing.movable);
+    }
+    let shapes: Vec<Vec<[f64; 2]>> =
+        plan.rooms.iter().map(|room| page.all(&room.outline)).collect();
+    for (text, thing) in grouped(&all, page) {
+        let at = middle(page.area(&thing.corners));
+        let room = shapes.iter().find(|shape| polygon::contains(shape, at));
+        labels.stay_in(room.map(|shape| bounds(shape)));
+        label(&text, thing, page, &mut labels, svg);
     }
     for (n, at) in rooms {
         let name = spaced(&plan.rooms[n].label);
@@ -341,20 +358,48 @@ fn room_name(plan: &Plan, n: usize, page: &Page, labels: &mut Labels) -> [f64; 2
     [x, y + 5.0]
 }
 
-fn label(thing: &PlanThing, page: &Page, labels: &mut Labels, svg: &mut Svg) {
+/// Things with what is written beside them: things of one name close to each other share it.
+fn grouped<'a>(all: &[&'a PlanThing], page: &Page) -> Vec<(String, &'a PlanThing)> {
+    const CLOSE: f64 = 70.0;
+    let mut found: Vec<(u32, &PlanThing)> = Vec::new();
+    for thing in all {
+        let [x, y] = middle(page.area(&thing.corners));
+        let same = found.iter_mut().find(|(_, other)| {
+            let [u, v] = middle(page.area(&other.corners));
+            let near = libm::hypot(x - u, y - v) < if thing.movable { CLOSE } else { CLOSE / 2.0 };
+            other.label == thing.label && other.change.is_none() && thing.change.is_none() && near
+        });
+        match same {
+            Some((count, _)) => *count += 1,
+            None => found.push((1, thing)),
+        }
+    }
+    let text = |(count, thing): (u32, &'a PlanThing)| match count {
+        1 => (thing.label.clone(), thing),
+        _ => (format!("{} \u{d7}{count}", thing.label), thing),
+    };
+    found.into_iter().map(text).collect()
+}
+
+fn bounds(points: &[[f64; 2]]) -> Area {
+    let least = |k: usize| points.iter().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+    let most = |k: usize| points.iter().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+    [least(0), least(1), most(0), most(1)]
+}
+
+fn label(text: &str, thing: &PlanThing, page: &Page, labels: &mut Labels, svg: &mut Svg) {
     let area = page.area(&thing.corners);
     let colour = thing.change.as_ref().map(colour_of);
     let large =
         if thing.movable || thing.change.is_some() { &[][..] } else { &[11.5, 10.0, 9.0][..] };
     let size = if thing.change.is_some() { 11.0 } else { 9.0 };
-    let Some(placed) = labels
-        .inside(&thing.label, area, large)
-        .or_else(|| labels.beside(&thing.label, area, size))
+    let Some(placed) =
+        labels.inside(&thing.label, area, large).or_else(|| labels.beside(text, area, size))
     else {
         return;
     };
     let quiet = if thing.movable { "#2f4e70" } else { "#5b5f61" };
-    write(&thing.label, &placed, area, colour.unwrap_or(quiet), svg);
+    write(text, &placed, area, colour.unwrap_or(quiet), svg);
 }
 
 fn write(text: &str, placed: &Placed, thing: Area, colour: &str, svg: &mut Svg) {

@@ -26,6 +26,7 @@ pub struct Labels {
     /// Better not covered: things, walls, with how bad it is.
     busy: Vec<(Area, f64)>,
     limits: Area,
+    home: Option<Area>,
 }
 
 /// Distances of labels from the edge of their things that are tried, nearest first.
@@ -59,6 +60,11 @@ impl Labels {
     /// Something that labels had better not cover; `cost` for each unit of area.
     pub fn avoid(&mut self, area: Area, cost: f64) {
         self.busy.push((area, cost));
+    }
+
+    /// Labels from now on had better stay in this area.
+    pub fn stay_in(&mut self, home: Option<Area>) {
+        self.home = home;
     }
 
     /// Something that labels must not cover.
@@ -120,7 +126,8 @@ impl Labels {
                 if !self.is_free(area) {
                     continue;
                 }
-                let trouble = self.cost(area, None) + ring * 2.2 + order as f64 * 0.4;
+                let away = self.home.map_or(0.0, |home| x * y - shared(area, home));
+                let trouble = self.cost(area, None) + away * 1.5 + ring * 2.2 + order as f64 * 0.4;
                 if best.is_none_or(|(least, _, _)| trouble < least) {
                     best = Some((trouble, area, far as f64));
                 }

@@ -63,7 +63,9 @@ fn check_sound(house: &House) {
         assert!(thing.support.is_none_or(|below| below < house.things.len()));
     }
     for door in &house.doors {
-        assert!(door.rooms.iter().all(|n| *n < house.rooms.len()) && door.rooms[0] != door.rooms[1]);
+        assert!(
+            door.rooms.iter().all(|n| *n < house.rooms.len()) && door.rooms[0] != door.rooms[1]
+        );
     }
 }
 
@@ -118,7 +120,8 @@ fn names_that_are_no_houses_are_told() {
     assert!(error.contains("chateau") && error.contains("apartment, cottage, loft"), "{error}");
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mine.json");
-    std::fs::write(&path, r#"{"name": "x", "rooms": [{"label": "den", "box": [0, 0, 1]}]}"#).unwrap();
+    std::fs::write(&path, r#"{"name": "x", "rooms": [{"label": "den", "box": [0, 0, 1]}]}"#)
+        .unwrap();
     let error = load(&path.display().to_string()).unwrap_err().to_string();
     assert!(error.contains("mine.json") && error.contains("rooms[0].box"), "{error}");
 }
@@ -147,10 +150,14 @@ fn an_obj_file_fills_the_box_in_its_colours() {
     let material = mesh.materials[usize::from(mesh.material_of[0])];
     assert_eq!(material.colour, [0.8, 0.1, 0.1]);
     // Faces outwards still: the volume is positive.
-    let volume: f32 = mesh.triangles.iter().map(|t| {
-        let [a, b, c] = t.map(|n| nalgebra::Vector3::from(mesh.vertices[n as usize]));
-        a.dot(&b.cross(&c)) / 6.0
-    }).sum();
+    let volume: f32 = mesh
+        .triangles
+        .iter()
+        .map(|t| {
+            let [a, b, c] = t.map(|n| nalgebra::Vector3::from(mesh.vertices[n as usize]));
+            a.dot(&b.cross(&c)) / 6.0
+        })
+        .sum();
     assert!((volume - 0.048).abs() < 1e-4, "{volume}");
 }
 

@@ -69,7 +69,11 @@ fn fields_that_cannot_be_are_named() {
         ("/objects/3/decay", json!("slow"), &["objects[3].decay: \"slow\"", "tableware"]),
         ("/objects/3/half_life_h", json!(0.0), &["objects[3].half_life_h: 0"]),
         ("/objects/3/label", json!(" "), &["objects[3].label: "]),
-        ("/objects/3/room", json!("attic"), &["objects[3].room: ", "\"attic\"", "kitchen, bedroom"]),
+        (
+            "/objects/3/room",
+            json!("attic"),
+            &["objects[3].room: ", "\"attic\"", "kitchen, bedroom"],
+        ),
         ("/objects/3/room", json!("kitchen"), &["objects[3].position: ", "in the bedroom, not"]),
         ("/objects/3/name", json!("mug"), &["name: \"mug\"", "objects[1]", "another"]),
         ("/objects/3/texture", json!({"dots": 1}), &["objects[3].texture", "stripes"]),
@@ -78,7 +82,11 @@ fn fields_that_cannot_be_are_named() {
             json!({"grain": {"scale": 0.1, "strength": 2}}),
             &["objects[3].texture.grain.strength: 2"],
         ),
-        ("/objects/-", json!({"label": "gizmo", "position": [1, 1]}), &["objects[4]: ", "size [w, h, d]"]),
+        (
+            "/objects/-",
+            json!({"label": "gizmo", "position": [1, 1]}),
+            &["objects[4]: ", "size [w, h, d]"],
+        ),
         (
             "/objects/3/orientation",
             json!({"w": 1, "x": 0, "y": 0, "z": 0}),
@@ -92,7 +100,11 @@ fn fields_that_cannot_be_are_named() {
 #[test]
 fn rooms_that_cannot_be_are_named() {
     for (pointer, value, words) in [
-        ("/rooms/1/box", json!([3.5, 0, 7, 3]), &["rooms[1]: ", "bedroom overlaps the kitchen", "0.50 m"][..]),
+        (
+            "/rooms/1/box",
+            json!([3.5, 0, 7, 3]),
+            &["rooms[1]: ", "bedroom overlaps the kitchen", "0.50 m"][..],
+        ),
         ("/rooms/1/box", json!([4, 0, 3, 3]), &["rooms[1].box[2]: 3", "beyond 4"]),
         ("/rooms/1/outline", json!([[4, 0], [7, 0], [7, 3]]), &["rooms[1]: ", "not both"]),
         (
@@ -121,14 +133,34 @@ fn rooms_that_cannot_be_are_named() {
 #[test]
 fn things_that_cannot_stand_there_are_named() {
     for (pointer, value, words) in [
-        ("/objects/3/position", json!([9, 2]), &["objects[3].position: ", "(9, 2) is in no room"][..]),
-        ("/objects/3/position", json!([6.95, 2]), &["objects[3].position: \"chair\"", "into a wall"]),
-        ("/objects/3/position", json!([6, 2, 1.0]), &["objects[3].position: ", "floats 0.55 m", "support"]),
+        (
+            "/objects/3/position",
+            json!([9, 2]),
+            &["objects[3].position: ", "(9, 2) is in no room"][..],
+        ),
+        (
+            "/objects/3/position",
+            json!([6.95, 2]),
+            &["objects[3].position: \"chair\"", "into a wall"],
+        ),
+        (
+            "/objects/3/position",
+            json!([6, 2, 1.0]),
+            &["objects[3].position: ", "floats 0.55 m", "support"],
+        ),
         ("/objects/3/position", json!([6, 2, 0.2]), &["objects[3].position: ", "into the floor"]),
         ("/objects/2/position", json!([2, 2.75, 2.4]), &["objects[2].position: ", "ceiling"]),
-        ("/objects/1/position", json!([1.5, 1.5, 1.0]), &["objects[1].position: ", "0.21 m above the top"]),
+        (
+            "/objects/1/position",
+            json!([1.5, 1.5, 1.0]),
+            &["objects[1].position: ", "0.21 m above the top"],
+        ),
         ("/objects/1/position", json!([2.1, 1.5]), &["objects[1]: \"mug\"", "juts", "edge"]),
-        ("/objects/1/support", json!("desk"), &["objects[1].support: ", "no object named \"desk\""]),
+        (
+            "/objects/1/support",
+            json!("desk"),
+            &["objects[1].support: ", "no object named \"desk\""],
+        ),
         ("/objects/1/support", json!("mug"), &["objects[1].support: ", "stands on itself"]),
         ("/objects/1/surface", json!("shelf"), &["objects[1]: ", "no surface \"shelf\"", "top"]),
         ("/objects/3/surface", json!("top"), &["objects[3].surface: ", "support"]),
@@ -171,8 +203,7 @@ fn a_chair_may_stand_under_a_table() {
 fn a_thing_may_lie_on_its_side() {
     let mut file = right();
     let lying = json!({"w": 0.707_106_8, "x": 0.707_106_8, "y": 0, "z": 0});
-    file["objects"][1] =
-        json!({"label": "bottle", "position": [1.5, 1.5], "support": "table", "orientation": lying});
+    file["objects"][1] = json!({"label": "bottle", "position": [1.5, 1.5], "support": "table", "orientation": lying});
     let house = build(&read(&file.to_string()).unwrap(), None).unwrap();
     assert!((house.things[1].pose.position()[2] - 0.78).abs() < 1e-5);
 }
