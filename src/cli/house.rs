@@ -20,7 +20,7 @@ Also takes the graph of a VirtualHome apartment, or a scene.")]
 pub struct House {
     /// Name of a built-in house, or a file (JSON)
     #[arg(value_name = "HOUSE")]
-    house: Option<String>,
+    name: Option<String>,
     /// Print the file of a built-in house
     #[arg(long, conflicts_with = "json")]
     print: bool,
@@ -52,7 +52,7 @@ struct RoomSummary {
 
 /// Runs `scenefold house`.
 pub fn run(args: &House, out: &mut Output) -> anyhow::Result<Outcome> {
-    let Some(name) = &args.house else { return list(args, out) };
+    let Some(name) = &args.name else { return list(args, out) };
     if args.print {
         let known = BuiltIn::named(name);
         let known = known.ok_or_else(|| {

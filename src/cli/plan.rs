@@ -106,7 +106,7 @@ impl Plan {
         let mut title = format!("{}, {}", stem(Path::new(name)), state.at);
         let before = self.since.map(|since| state_at(&recording, since)).transpose()?;
         if let Some(before) = &before {
-            title += &format!(" since {}", before.at);
+            title = format!("{title} since {}", before.at);
         }
         let mut plan = FloorPlan::of_graph(state.graph(), &title);
         if self.probability {

@@ -26,7 +26,7 @@ fn the_built_in_houses_are_possible() {
         match it.house() {
             Ok(house) => assert_eq!(house.name, it.name),
             Err(errors) => {
-                errors.iter().for_each(|error| wrong += &format!("{}: {error}\n", it.name));
+                wrong.extend(errors.iter().map(|error| format!("{}: {error}\n", it.name)));
             }
         }
     }

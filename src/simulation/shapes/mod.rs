@@ -4,6 +4,9 @@
 //! are at +y. Every mesh fills its box exactly. Classes are named in plain words such as
 //! "tv remote"; other common names for them are known too (see [`class_named`]).
 
+// Colours are written as everywhere: 0xrrggbb.
+#![allow(clippy::unreadable_literal)]
+
 mod bath;
 mod decor;
 mod devices;

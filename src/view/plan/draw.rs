@@ -131,12 +131,12 @@ fn walls(plan: &Plan, page: &Page, svg: &mut Svg) {
         svg.polygon(&page.all(wall), &look);
     }
     for ends in &plan.doors {
-        door(page.all(ends), svg);
+        door(&page.all(ends), svg);
     }
 }
 
 /// A leaf, open at a right angle, and the way it swings.
-fn door(ends: Vec<[f64; 2]>, svg: &mut Svg) {
+fn door(ends: &[[f64; 2]], svg: &mut Svg) {
     let [a, b] = [ends[0], ends[1]];
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
     let radius = libm::hypot(dx, dy);
@@ -174,7 +174,7 @@ fn footprint(thing: &PlanThing, quiet: bool, page: &Page, svg: &mut Svg) {
 fn belief(p: f64) -> String {
     let stops = [[0xc8, 0x45, 0x3b], [0xf0, 0xc0, 0x4a], [0x2f, 0x8f, 0x57]];
     let place = p.clamp(0.0, 1.0) * 2.0;
-    let n = if place < 1.0 { 0 } else { 1 };
+    let n = usize::from(place >= 1.0);
     let share = place - n as f64;
     let mix = |k: usize| {
         let (low, high) = (f64::from(stops[n][k]), f64::from(stops[n + 1][k]));
@@ -393,8 +393,7 @@ fn label(text: &str, thing: &PlanThing, page: &Page, labels: &mut Labels, svg: &
     let large =
         if thing.movable || thing.change.is_some() { &[][..] } else { &[11.5, 10.0, 9.0][..] };
     let size = if thing.change.is_some() { 11.0 } else { 9.0 };
-    let Some(placed) =
-        labels.inside(&thing.label, area, large).or_else(|| labels.beside(text, area, size))
+    let Some(placed) = labels.inside(text, area, large).or_else(|| labels.beside(text, area, size))
     else {
         return;
     };

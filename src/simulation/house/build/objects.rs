@@ -96,7 +96,7 @@ fn size(file: &ObjectFile, path: &str, wrong: &mut Complaints) -> Option<Size> {
     };
     let mut fine = true;
     for (k, side) in sides.into_iter().enumerate() {
-        if !(side >= 0.001 && side <= 20.0) {
+        if !(0.001..=20.0).contains(&side) {
             let problem = format!("a box side of {side} must be 0.001 to 20 m");
             wrong.push(HouseError::new(format!("{path}.size[{k}]"), problem));
             fine = false;

@@ -148,7 +148,7 @@ fn an_obj_file_fills_the_box_in_its_colours() {
         assert!((reach - half).abs() < 1e-6);
     }
     let material = mesh.materials[usize::from(mesh.material_of[0])];
-    assert_eq!(material.colour, [0.8, 0.1, 0.1]);
+    assert_eq!(material.colour.map(f32::to_bits), [0.8_f32, 0.1, 0.1].map(f32::to_bits));
     // Faces outwards still: the volume is positive.
     let volume: f32 = mesh
         .triangles
