@@ -32,7 +32,8 @@ fn check_mesh(class: &str, size: Size) {
         let half = (size.metres()[k] / 2.0) as f32;
         let low = mesh.vertices.iter().map(|v| v[k]).fold(f32::INFINITY, f32::min);
         let high = mesh.vertices.iter().map(|v| v[k]).fold(f32::NEG_INFINITY, f32::max);
-        assert!(low == -half && high == half, "{class}: axis {k} of {size:?}: {low} {high}");
+        let exact = [low, high].map(f32::to_bits) == [-half, half].map(f32::to_bits);
+        assert!(exact, "{class}: axis {k} of {size:?}: {low} {high}");
     }
     assert_eq!(mesh.triangles.len(), mesh.material_of.len());
     for (triangle, material) in mesh.triangles.iter().zip(&mesh.material_of) {
