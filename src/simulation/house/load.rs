@@ -1,4 +1,4 @@
-//! Finding a house by its name or its file: [`load`].
+//! Finding a house by its name or its file: [`load()`].
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ pub fn load(name: &str) -> Result<House, LoadError> {
     load_reported(name).map(|loaded| loaded.house)
 }
 
-/// As [`load`], and tells what had to be mended.
+/// As [`load()`], and tells what had to be mended.
 pub fn load_reported(name: &str) -> Result<Loaded, LoadError> {
     if let Some(house) = BuiltIn::named(name) {
         let errors = |errors| LoadError::House { file: name.to_owned(), errors };

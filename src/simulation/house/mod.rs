@@ -1,7 +1,7 @@
-//! What a house is: [`House`]; where houses come from: [`load`].
+//! What a house is: [`House`]; where houses come from: [`load()`].
 //!
 //! A house file is JSON (see [`HouseFile`]); so is the graph of a VirtualHome apartment, and any
-//! scene that `replay --json` prints: those become houses by [`from_graph`], which mends what
+//! scene that `replay --json` prints: those become houses by [`from_graph()`], which mends what
 //! does not fit and says so.
 
 mod build;
