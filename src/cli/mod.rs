@@ -7,11 +7,13 @@ mod bisect;
 mod demo;
 mod diff;
 mod export;
+mod house;
 mod import;
 mod info;
 mod ingest;
 mod log;
 mod output;
+mod plan;
 mod progress;
 mod recover;
 mod replay;
@@ -70,6 +72,8 @@ enum Command {
     Export(export::Export),
     Ingest(ingest::Ingest),
     Simulate(simulate::Simulate),
+    House(house::House),
+    Plan(plan::Plan),
     Demo(demo::Demo),
 }
 
@@ -125,6 +129,8 @@ impl Cli {
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
             Command::Simulate(args) => simulate::run(&args, out),
+            Command::House(args) => house::run(&args, out),
+            Command::Plan(args) => plan::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

@@ -5,6 +5,8 @@
 //!
 //! - [`svg`]: a writer of SVG, in the style all our drawings share.
 //! - [`raster`]: SVG to PNG.
+//! - [`plan`]: the floor plan of a house or of a graph, and what changed in it.
 
+pub mod plan;
 pub mod raster;
 pub mod svg;

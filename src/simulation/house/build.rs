@@ -1,4 +1,4 @@
-//! From a house file to a house: [`build`].
+//! From a house file to a house: [`build()`].
 
 mod look;
 mod objects;

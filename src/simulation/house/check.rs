@@ -23,10 +23,10 @@ pub fn check(house: &House, wrong: &mut Complaints) {
             let problem = format!("{:?} {problem}", thing.name);
             wrong.push(HouseError::new(format!("{path}.position"), problem));
         }
-        if let Err(Misfit::Occupied { other, by_m }) = space.collision_of(n) {
-            if let Some(problem) = collision(house, n, other, by_m) {
-                wrong.push(HouseError::new(format!("{path}.position"), problem));
-            }
+        if let Err(Misfit::Occupied { other, by_m }) = space.collision_of(n)
+            && let Some(problem) = collision(house, n, other, by_m)
+        {
+            wrong.push(HouseError::new(format!("{path}.position"), problem));
         }
     }
 }

@@ -1,4 +1,4 @@
-//! A house from a scene graph that nobody drew as a house: [`from_graph`].
+//! A house from a scene graph that nobody drew as a house: [`from_graph()`].
 //!
 //! Rooms become rectangles that meet in walls; doors are put where the graph has doors, or where
 //! rooms give access; things are filled with the mesh of their class and pushed into their rooms.

@@ -1,4 +1,4 @@
-//! Finding a house by its name or its file: [`load`].
+//! Finding a house by its name or its file: [`load()`].
 
 use std::path::Path;
 
@@ -25,7 +25,7 @@ pub fn load(name: &str) -> Result<House, LoadError> {
     load_reported(name).map(|loaded| loaded.house)
 }
 
-/// As [`load`], and tells what had to be mended.
+/// As [`load()`], and tells what had to be mended.
 pub fn load_reported(name: &str) -> Result<Loaded, LoadError> {
     if let Some(house) = BuiltIn::named(name) {
         let errors = |errors| LoadError::House { file: name.to_owned(), errors };
@@ -42,34 +42,49 @@ pub fn load_reported(name: &str) -> Result<Loaded, LoadError> {
     let named =
         path.file_stem().map_or(name.to_owned(), |stem| stem.to_string_lossy().into_owned());
     match kind(&text) {
-        Kind::House => {
+        FileKind::House => {
             let errors = |errors| LoadError::House { file: name.to_owned(), errors };
             let file = read(&text).map_err(|error| errors(vec![error]))?;
             let house = build(&file, path.parent()).map_err(errors)?;
             Ok(Loaded { house, notes: Vec::new() })
         }
-        Kind::Graph => of_graph(&text, &named, name),
+        other => of_graph(&text, other, &named, name),
     }
 }
 
-enum Kind {
+/// What a JSON text holds that a house can be made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// A house file; also what is nothing of all this.
     House,
-    Graph,
+    /// The graph of a VirtualHome apartment.
+    VirtualHome,
+    /// A scene, as `replay --json` prints it.
+    Scene,
 }
 
-/// What a text holds: graphs have nodes, or objects with ids and rooms by id.
-fn kind(text: &str) -> Kind {
-    let Ok(Value::Object(fields)) = serde_json::from_str(text) else { return Kind::House };
-    let scene = ["hash", "floors", "buildings", "at"];
-    let is_graph =
-        fields.contains_key("nodes") || scene.iter().any(|key| fields.contains_key(*key));
-    if is_graph { Kind::Graph } else { Kind::House }
+/// What a text holds: graphs have nodes; the rooms of scenes have ids, those of houses outlines.
+pub fn kind(text: &str) -> FileKind {
+    let Ok(Value::Object(fields)) = serde_json::from_str(text) else { return FileKind::House };
+    let shaped = |room: &Value| room.get("box").is_some() || room.get("outline").is_some();
+    let rooms = fields.get("rooms").and_then(Value::as_array);
+    match rooms {
+        _ if fields.contains_key("nodes") => FileKind::VirtualHome,
+        _ if ["hash", "floors", "buildings", "at"].iter().any(|key| fields.contains_key(*key)) => {
+            FileKind::Scene
+        }
+        Some(rooms)
+            if !rooms.is_empty() && !rooms.iter().any(shaped) && !fields.contains_key("name") =>
+        {
+            FileKind::Scene
+        }
+        _ => FileKind::House,
+    }
 }
 
-fn of_graph(text: &str, named: &str, file: &str) -> Result<Loaded, LoadError> {
+fn of_graph(text: &str, kind: FileKind, named: &str, file: &str) -> Result<Loaded, LoadError> {
     let refused = |problem: String| LoadError::Graph { file: file.to_owned(), problem };
-    let is_scene = !text.contains("\"nodes\"");
-    let graph = if is_scene {
+    let graph = if kind == FileKind::Scene {
         scene::import(text).map_err(|error| refused(error.to_string()))?.graph
     } else {
         let options = virtualhome::Options { structure: true, ..Default::default() };

@@ -1,7 +1,7 @@
-//! What a house is: [`House`]; where houses come from: [`load`].
+//! What a house is: [`House`]; where houses come from: [`load()`].
 //!
 //! A house file is JSON (see [`HouseFile`]); so is the graph of a VirtualHome apartment, and any
-//! scene that `replay --json` prints: those become houses by [`from_graph`], which mends what
+//! scene that `replay --json` prints: those become houses by [`from_graph()`], which mends what
 //! does not fit and says so.
 
 mod build;
@@ -33,8 +33,8 @@ pub use file::{
     AxisName, DoorFile, HouseFile, Look, ObjectFile, QuaternionFile, RoomFile, TextureFile,
 };
 pub use from_graph::{FromGraph, from_graph};
-pub use load::{Loaded, load, load_reported};
-pub use space::{Misfit, Space, SurfaceInWorld, around};
+pub use load::{FileKind, Loaded, kind, load, load_reported};
+pub use space::{Misfit, Space, SurfaceInWorld, around as footprint};
 pub use structure::Slab;
 
 /// One storey, known to be possible: no rooms overlap, nothing floats or stands in a wall.

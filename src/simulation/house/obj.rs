@@ -113,7 +113,7 @@ fn fitted(mut mesh: Mesh, size: Size) -> Result<(Mesh, Vec<Surface>), String> {
     let high: [f32; 3] = std::array::from_fn(|k| {
         mesh.vertices.iter().map(|v| v[k]).fold(f32::NEG_INFINITY, f32::max)
     });
-    if (0..3).any(|k| !(high[k] > low[k])) {
+    if (0..3).any(|k| high[k] <= low[k]) {
         return Err("it is flat: it cannot be scaled to fill a box".to_owned());
     }
     let half = size.metres().map(|side| side / 2.0);

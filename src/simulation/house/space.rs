@@ -75,6 +75,13 @@ pub fn surface_in_world(thing: &Thing, surface: &Surface) -> SurfaceInWorld {
     }
 }
 
+impl Thing {
+    /// A surface of this thing where the thing is now.
+    pub fn surface_in_world(&self, surface: &Surface) -> SurfaceInWorld {
+        surface_in_world(self, surface)
+    }
+}
+
 impl SurfaceInWorld {
     /// Whether the footprint of a box lies on the surface, and its height under what is above.
     /// Looks at nothing else that stands there, and not at the height of `pose`.

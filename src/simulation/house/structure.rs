@@ -175,6 +175,22 @@ impl House {
     }
 }
 
+impl House {
+    /// Triangles of the building and of all things.
+    pub fn triangles(&self) -> usize {
+        let slabs = [self.walls(), self.floors(), self.ceilings()];
+        let building: usize = slabs.iter().flatten().map(|slab| slab.mesh.triangles.len()).sum();
+        building + self.things.iter().map(|thing| thing.mesh.triangles.len()).sum::<usize>()
+    }
+}
+
+impl super::Room {
+    /// Area of its floor, square metres.
+    pub fn area_m2(&self) -> f64 {
+        polygon::area(&self.outline).abs()
+    }
+}
+
 /// Stretches less others.
 fn without(mut left: Vec<(f64, f64)>, gaps: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     for (low, high) in gaps {

@@ -1,5 +1,7 @@
 //! What makes a home: plants, pictures, clocks, toys, boxes.
 
+use std::f64::consts::PI;
+
 use super::paint::{checked, cloth, plain, striped, wood};
 use super::sketch::Sketch;
 use super::tableware::arc;
@@ -158,7 +160,7 @@ fn basket(s: &mut Sketch) {
     s.surface("inside", [wall + 0.01, wall + 0.01], [w - wall - 0.01, h - wall - 0.01], wall, None);
     s.paint(plain(0x6e4a1f));
     let grip: Vec<_> =
-        arc([w / 2.0, h / 2.0, rim * 0.9], [w / 2.0 - 0.01, d - rim * 0.9 - 0.01], 0.0, 3.1416, 10)
+        arc([w / 2.0, h / 2.0, rim * 0.9], [w / 2.0 - 0.01, d - rim * 0.9 - 0.01], 0.0, PI, 10)
             .into_iter()
             .map(|at| (at, 0.01))
             .collect();

@@ -1,5 +1,7 @@
 //! Electric and electronic things, and books: what lies on desks.
 
+use std::f64::consts::{PI, TAU};
+
 use super::paint::{cloth, plain, striped, wood};
 use super::sketch::Sketch;
 use super::tableware::arc;
@@ -160,7 +162,7 @@ fn radio(s: &mut Sketch) {
     s.rod([w * 0.78, 0.012, d * 0.3], [w * 0.78, 0.0, d * 0.3], w * 0.09, 14);
     s.block([w * 0.64, 0.004, d * 0.55], [w * 0.94, 0.012, d * 0.75]);
     s.tube(
-        &arc([w / 2.0, h / 2.0, d * 0.85], [w * 0.4, d * 0.15 - 0.006], 0.0, 3.14, 8)
+        &arc([w / 2.0, h / 2.0, d * 0.85], [w * 0.4, d * 0.15 - 0.006], 0.0, PI, 8)
             .into_iter()
             .map(|at| (at, 0.006))
             .collect::<Vec<_>>(),
@@ -171,11 +173,10 @@ fn radio(s: &mut Sketch) {
 fn headphones(s: &mut Sketch) {
     let [w, h, d] = s.size;
     s.paint(plain(0x23262b));
-    let band: Vec<_> =
-        arc([w / 2.0, h / 2.0, d * 0.4], [w * 0.42, d * 0.6 - 0.01], 0.0, 3.1416, 10)
-            .into_iter()
-            .map(|at| (at, 0.01))
-            .collect();
+    let band: Vec<_> = arc([w / 2.0, h / 2.0, d * 0.4], [w * 0.42, d * 0.6 - 0.01], 0.0, PI, 10)
+        .into_iter()
+        .map(|at| (at, 0.01))
+        .collect();
     s.tube(&band, 6);
     s.paint(plain(0xd04a3a));
     for x in [w * 0.08, w * 0.92] {
@@ -275,7 +276,7 @@ fn fan(s: &mut Sketch) {
     s.cylinder([w / 2.0, h / 2.0], h / 2.0, [0.0, 0.03], 16);
     s.cylinder([w / 2.0, h * 0.6], 0.018, [0.03, z], 8);
     s.rod([w / 2.0, h * 0.75, z], [w / 2.0, h * 0.35, z], w * 0.12, 12);
-    let rim: Vec<_> = arc([w / 2.0, h * 0.4, z], [w / 2.0 - 0.01, w / 2.0 - 0.01], 0.0, 6.2832, 18)
+    let rim: Vec<_> = arc([w / 2.0, h * 0.4, z], [w / 2.0 - 0.01, w / 2.0 - 0.01], 0.0, TAU, 18)
         .into_iter()
         .map(|at| (at, 0.01))
         .collect();

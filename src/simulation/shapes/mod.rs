@@ -4,6 +4,9 @@
 //! are at +y. Every mesh fills its box exactly. Classes are named in plain words such as
 //! "tv remote"; other common names for them are known too (see [`class_named`]).
 
+// Colours are written as everywhere: 0xrrggbb.
+#![allow(clippy::unreadable_literal)]
+
 mod bath;
 mod decor;
 mod devices;
@@ -12,7 +15,7 @@ mod furniture;
 mod kitchen;
 mod names;
 pub(in crate::simulation) mod paint;
-pub(in crate::simulation) mod polygon;
+pub mod polygon;
 mod sketch;
 mod tableware;
 mod textiles;

@@ -1,5 +1,7 @@
 //! Cloth, clothes, and things to wear or carry.
 
+use std::f64::consts::PI;
+
 use super::paint::{checked, cloth, plain, striped};
 use super::sketch::Sketch;
 use super::tableware::arc;
@@ -134,7 +136,7 @@ fn backpack(s: &mut Sketch) {
     s.paint(cloth(0xe0a030));
     s.cushion([w * 0.15, 0.0, d * 0.08], [w * 0.85, h * 0.45, d * 0.5], 12);
     s.paint(plain(0x1a1a1a));
-    let grip: Vec<_> = arc([w / 2.0, h * 0.6, d * 0.9], [w * 0.1, d * 0.09], 0.0, 3.14, 6)
+    let grip: Vec<_> = arc([w / 2.0, h * 0.6, d * 0.9], [w * 0.1, d * 0.09], 0.0, PI, 6)
         .into_iter()
         .map(|at| (at, d * 0.012))
         .collect();

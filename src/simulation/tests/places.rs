@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::{small_house, thing};
-use crate::simulation::house::around;
+use crate::simulation::house::footprint;
 use crate::simulation::random::Random;
 use crate::simulation::scenario::{Place, Scenario};
 use crate::simulation::world::TrueWorld;
@@ -15,7 +15,7 @@ proptest! {
         let plate = thing("plate", 0, None, [0.0; 3], [0.25, 0.25, 0.02]);
         let place = Place { on: Some("table".to_owned()), ..Place::default() };
         let spot = world.place(&plate, &place, &mut Random::new(seed, 0)).unwrap();
-        let (plate, table) = (around(&spot.pose, plate.size), around(&world.thing(0).pose, world.thing(0).size));
+        let (plate, table) = (footprint(&spot.pose, plate.size), footprint(&world.thing(0).pose, world.thing(0).size));
         prop_assert!((plate.z[0] - table.z[1]).abs() < 1e-5);
         for corner in plate.corners() {
             prop_assert!((corner[0] - 1.0).abs() <= 0.6 && (corner[1] - 2.2).abs() <= 0.4);

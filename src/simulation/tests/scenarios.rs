@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::simulation::blocks::Block;
-use crate::simulation::house::{self, House, around};
+use crate::simulation::house::{self, House, footprint};
 use crate::simulation::scenario::{Draw, Scenario, generate, paper_mission};
 use crate::simulation::world::TrueWorld;
 
@@ -13,7 +13,7 @@ fn built_in(name: &str) -> Arc<House> {
 
 fn block(world: &TrueWorld, n: usize) -> Block {
     let thing = world.thing(n);
-    around(&thing.pose, thing.size)
+    footprint(&thing.pose, thing.size)
 }
 
 /// What was put somewhere lies level on a surface of its support, and within it.

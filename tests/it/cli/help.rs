@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 use super::{program, run};
 use crate::golden::in_snapshots;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: &[&str] = &[
     "info",
     "log",
     "replay",
@@ -20,6 +20,8 @@ const COMMANDS: [&str; 15] = [
     "export",
     "ingest",
     "simulate",
+    "house",
+    "plan",
     "demo",
 ];
 

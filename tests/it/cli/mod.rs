@@ -3,6 +3,7 @@
 mod exit_codes;
 mod files;
 mod help;
+mod houses;
 mod ingest;
 mod json;
 mod streams;

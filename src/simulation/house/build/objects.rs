@@ -43,14 +43,13 @@ pub fn read(file: &HouseFile, folder: Option<&Path>, wrong: &mut Complaints) -> 
 /// Names as given, or made from labels: "mug", "mug 2".
 fn names(file: &HouseFile, wrong: &mut Complaints) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    let given: Vec<&String> = file.objects.iter().filter_map(|it| it.name.as_ref()).collect();
     for (n, object) in file.objects.iter().enumerate() {
         let name = object.name.clone().unwrap_or_else(|| {
             let numbered = (1_usize..).map(|k| match k {
                 1 => object.label.clone(),
                 _ => format!("{} {k}", object.label),
             });
-            let free = |name: &String| !names.contains(name) && !given.contains(&name);
+            let free = |name: &String| !names.contains(name);
             numbered.into_iter().find(free).expect("numbers do not end")
         });
         if let Some(first) = names.iter().position(|other| *other == name) {
@@ -97,7 +96,7 @@ fn size(file: &ObjectFile, path: &str, wrong: &mut Complaints) -> Option<Size> {
     };
     let mut fine = true;
     for (k, side) in sides.into_iter().enumerate() {
-        if !(side >= 0.001 && side <= 20.0) {
+        if !(0.001..=20.0).contains(&side) {
             let problem = format!("a box side of {side} must be 0.001 to 20 m");
             wrong.push(HouseError::new(format!("{path}.size[{k}]"), problem));
             fine = false;

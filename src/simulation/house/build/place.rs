@@ -104,7 +104,7 @@ fn thing(
         }
     };
     let pose = Pose::new([at[0], at[1], z], turn).map_err(|error| {
-        wrong.push(HouseError::new(format!("{path}.position"), error.to_string()))
+        wrong.push(HouseError::new(format!("{path}.position"), error.to_string()));
     });
     let room = room(file, &path, [at[0], at[1]], (house, rooms), wrong)?;
     let Draft { name, label, size, mesh, surfaces, movable, decay_rate } = draft;

@@ -53,7 +53,7 @@ fn from_box([x0, y0, x1, y1]: [f64; 4], path: &str) -> Result<Vec<[f64; 2]>, Hou
 
 fn from_corners(corners: &[[f64; 2]], path: &str) -> Result<Vec<[f64; 2]>, HouseError> {
     let refused = |problem: &str| Err(HouseError::new(format!("{path}.outline"), problem));
-    if corners.iter().flatten().any(|c| !(c.abs() <= FAR_M)) {
+    if corners.iter().flatten().any(|c| !(-FAR_M..=FAR_M).contains(c)) {
         return refused("corners must be within 1000 m of the origin");
     }
     if corners.len() < 3 {

@@ -46,14 +46,14 @@ fn same(a: [usize; 2], b: [usize; 2]) -> bool {
 /// A door where an object is one: on the nearest wall that the rooms share.
 fn near(house: &House, rooms: [usize; 2], at: [f64; 2], width: f64) -> Option<Door> {
     let walls = polygon::edges(&house.rooms[rooms[0]].outline);
-    let on_wall = walls.filter_map(|(a, b)| {
+    let mut on_wall = walls.filter_map(|(a, b)| {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let share = ((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / (dx * dx + dy * dy);
         let foot = [a[0] + share * dx, a[1] + share * dy];
         let far = libm::hypot(at[0] - foot[0], at[1] - foot[1]);
         (far < NEAR_M).then_some(foot)
     });
-    let ends = on_wall.filter_map(|foot| shared_wall(house, rooms, foot, width).ok()).next()?;
+    let ends = on_wall.find_map(|foot| shared_wall(house, rooms, foot, width).ok())?;
     Some(Door { rooms, ends, height_m: HEIGHT_M })
 }
 

@@ -83,21 +83,31 @@ fn bounds(points: &[[f64; 2]]) -> Option<Rectangle> {
     (!points.is_empty()).then(|| [[least(0), least(1)], [most(0), most(1)]])
 }
 
-/// Moves sides that nearly meet, or overlap a little, to the line between them.
+/// Moves sides that nearly meet, or overlap a little, to one line: the mean of all that hang
+/// together.
 fn join(rooms: &mut [(NodeId, Rectangle)]) {
+    // Side `s` (0 low, 1 high) of axis `k` of room `n` has number 4n + 2k + s.
+    let mut line: Vec<usize> = (0..rooms.len() * 4).collect();
     for n in 0..rooms.len() {
         for m in 0..n {
             let (a, b) = (rooms[n].1, rooms[m].1);
             // Positive where they overlap.
             let overlap = |k: usize| a[1][k].min(b[1][k]) - a[0][k].max(b[0][k]);
-            let k = if overlap(0) < overlap(1) { 0 } else { 1 };
+            let k = usize::from(overlap(0) >= overlap(1));
             if overlap(k).abs() > WALL_GAP_M || overlap(1 - k) < 0.3 {
                 continue;
             }
             let (lower, upper) = if a[0][k] < b[0][k] { (n, m) } else { (m, n) };
-            let line = f64::midpoint(rooms[lower].1[1][k], rooms[upper].1[0][k]);
-            rooms[lower].1[1][k] = line;
-            rooms[upper].1[0][k] = line;
+            let (high, low) = (line[4 * lower + 2 * k + 1], line[4 * upper + 2 * k]);
+            line.iter_mut().filter(|it| **it == low).for_each(|it| *it = high);
+        }
+    }
+    let side = |rooms: &[(NodeId, Rectangle)], n: usize| rooms[n / 4].1[n % 2][n / 2 % 2];
+    for which in 0..line.len() {
+        let together: Vec<usize> = (0..line.len()).filter(|n| line[*n] == which).collect();
+        let sum: f64 = together.iter().map(|n| side(rooms, *n)).sum();
+        for n in &together {
+            rooms[n / 4].1[n % 2][n / 2 % 2] = sum / together.len() as f64;
         }
     }
 }

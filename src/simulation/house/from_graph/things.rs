@@ -120,7 +120,7 @@ fn thing(id: NodeId, object: &Object, room: usize, fitted: &Fitted, house: &Hous
 /// Boxes of graphs are often aligned with the axes whatever they hold. What stands with a side
 /// at a wall is turned so that its back is there; its box stays where it is.
 fn facing(object: &Object, room: usize, fitted: &Fitted, house: &House) -> (Pose, Size) {
-    let unturned = object.pose.orientation() == Pose::IDENTITY.orientation();
+    let unturned = object.pose.orientation_e7() == Pose::IDENTITY.orientation_e7();
     let corners = &house.rooms[room].outline;
     let (low, high) = (corners[0], corners[2]);
     let [x, y, z] = fitted.pose.position();
