@@ -14,6 +14,7 @@ mod log;
 mod output;
 mod progress;
 mod recover;
+mod render;
 mod replay;
 mod reprocess;
 mod snapshot;
@@ -68,6 +69,7 @@ enum Command {
     Import(import::Import),
     Export(export::Export),
     Ingest(ingest::Ingest),
+    Render(render::Render),
     Demo(demo::Demo),
 }
 
@@ -122,6 +124,7 @@ impl Cli {
             Command::Import(args) => import::run(&args, out),
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
+            Command::Render(args) => render::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

@@ -2,7 +2,9 @@
 //!
 //! Deterministic: same house, same scenario, same seed, same bytes, for any number of threads.
 
+pub mod blocks;
 pub mod house;
 pub mod mesh;
 pub mod render;
 pub mod sensor;
+pub mod shapes;

@@ -1,10 +1,41 @@
-//! What a house is: [`House`].
+//! What a house is: [`House`]; where houses come from: [`load`].
+//!
+//! A house file is JSON (see [`HouseFile`]); so is the graph of a VirtualHome apartment, and any
+//! scene that `replay --json` prints: those become houses by [`from_graph`], which mends what
+//! does not fit and says so.
+
+mod build;
+mod built_in;
+mod check;
+mod decay;
+mod error;
+mod export;
+mod file;
+mod from_graph;
+mod load;
+mod obj;
+mod space;
+mod structure;
+#[cfg(test)]
+mod tests;
+mod thing;
 
 use std::sync::Arc;
 
 use super::mesh::{Material, Mesh};
 use crate::geometry::{Pose, Size};
 use crate::graph::Label;
+pub use build::{build, read};
+pub use built_in::{BUILT_IN, BuiltIn};
+pub use decay::{DECAY_CLASSES, DecayClass, decay_class, decay_rate_of};
+pub use error::{HouseError, LoadError};
+pub use file::{
+    AxisName, DoorFile, HouseFile, Look, ObjectFile, QuaternionFile, RoomFile, TextureFile,
+};
+pub use from_graph::{FromGraph, from_graph};
+pub use load::{Loaded, load, load_reported};
+pub use space::{Misfit, Space, SurfaceInWorld};
+pub use structure::Slab;
 
 /// One storey, known to be possible: no rooms overlap, nothing floats or stands in a wall.
 ///
