@@ -26,11 +26,11 @@ World frame: x and y along the floor, z up, metres; yaw counter-clockwise from x
 degrees. Depth is shown from blue (near) to red (far), black where there is none.
 
 Examples:
-  scenefold render HOUSE -o pictures                        one of each room
-  scenefold render HOUSE --room kitchen -o kitchen.png      and kitchen-depth.png, kitchen-mask.png
-  scenefold render HOUSE --pose 2,1.5,1.2,90,-15 -o eye.png from a pose
-  scenefold render HOUSE --pose 2,1.5,1.2 --at 4,3,0.8 -o eye.png
-  scenefold render HOUSE --room kitchen --noise 7 -o k.png  as a real camera sees it")]
+  scenefold render apartment -o pictures                        one of each room
+  scenefold render apartment --room kitchen -o kitchen.png      and kitchen-depth.png, kitchen-mask.png
+  scenefold render apartment --pose 2,1.5,1.2,90,-15 -o eye.png from a pose
+  scenefold render apartment --pose 2,1.5,1.2 --at 4,3,0.8 -o eye.png
+  scenefold render apartment --room kitchen --noise 7 -o k.png  as a real camera sees it")]
 pub struct Render {
     /// A house: name or file
     #[arg(value_name = "HOUSE")]

@@ -5,6 +5,7 @@ mod files;
 mod help;
 mod ingest;
 mod json;
+mod render;
 mod streams;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,48 @@
+//! Built-in houses as scenes.
+
+use nalgebra::Point3;
+
+use crate::geometry::{Camera, looking_at};
+use crate::simulation::house::{BUILT_IN, House};
+use crate::simulation::render::HouseScene;
+
+fn houses() -> impl Iterator<Item = House> {
+    BUILT_IN.iter().map(|house| house.house().unwrap())
+}
+
+#[test]
+fn every_room_can_be_looked_into_and_has_light() {
+    let camera = Camera::with_fov(40, 30, 1.3);
+    for house in houses() {
+        let scene = HouseScene::new(&house);
+        for (n, room) in house.rooms.iter().enumerate() {
+            let frame = scene.scene.render(&camera, &scene.view_of(room));
+            let own = |mask: &u16| {
+                let thing = mask.checked_sub(1).map(|thing| &house.things[usize::from(thing)]);
+                thing.is_some_and(|thing| thing.room == n)
+            };
+            let things = frame.mask.iter().filter(|mask| own(mask)).count();
+            let bare = house.things.iter().all(|thing| thing.room != n);
+            assert!(things > 20 || bare, "{}: {} is not seen", house.name, room.label.as_str());
+            let sum: u32 = frame.colour.iter().flatten().map(|part| u32::from(*part)).sum();
+            let mean = sum / (3 * 40 * 30);
+            let name = room.label.as_str();
+            assert!((70..200).contains(&mean), "{}: {name} is {mean} bright", house.name);
+        }
+    }
+}
+
+#[test]
+fn a_mask_is_the_number_of_the_thing_plus_one() {
+    let house = houses().next().unwrap();
+    let scene = HouseScene::new(&house);
+    let mut seen = 0;
+    for (n, thing) in house.things.iter().enumerate() {
+        let middle = thing.pose.point();
+        let above = Point3::new(middle.x + 0.01, middle.y, middle.z + 0.4 + thing.size.metres()[2]);
+        let camera = Camera::with_fov(9, 9, 0.6);
+        let frame = scene.scene.render(&camera, &looking_at(above, middle));
+        seen += usize::from(frame.mask.contains(&(n as u16 + 1)));
+    }
+    assert!(seen * 10 > house.things.len() * 8, "{seen} of {} things", house.things.len());
+}
