@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use crate::geometry::{Camera, looking_at};
 use crate::simulation::house::{BUILT_IN, House};
 use crate::simulation::render::HouseScene;
+use crate::simulation::sensor::{NoiseConfig, Picture, jpeg};
 
 fn houses() -> impl Iterator<Item = House> {
     BUILT_IN.iter().map(|house| house.house().unwrap())
@@ -45,4 +46,24 @@ fn a_mask_is_the_number_of_the_thing_plus_one() {
         seen += usize::from(frame.mask.contains(&(n as u16 + 1)));
     }
     assert!(seen * 10 > house.things.len() * 8, "{seen} of {} things", house.things.len());
+}
+
+/// A mission of some hundred pictures is to be of a few megabytes.
+#[test]
+fn pictures_of_rooms_stay_small() {
+    let camera = Camera::with_fov(320, 240, 1.2);
+    let house = houses().next().unwrap();
+    let scene = HouseScene::new(&house);
+    let (mut colour, mut depth) = (0, Vec::new());
+    for (n, room) in house.rooms.iter().enumerate() {
+        let frame = scene.scene.render(&camera, &scene.view_of(room));
+        let picture = Picture::take(&frame, &camera, &NoiseConfig::default(), 1, n as u64);
+        colour += jpeg(320, 240, &picture.colour, 80).unwrap().len() / house.rooms.len();
+        depth.extend(picture.depth_mm.iter().flat_map(|mm| mm.to_le_bytes()));
+    }
+    let packed =
+        |level: i32| zstd::bulk::compress(&depth, level).unwrap().len() / house.rooms.len();
+    println!("JPEG {colour}, depth by zstd 3 {}, 9 {}, 19 {}", packed(3), packed(9), packed(19));
+    assert!(colour < 12_000, "{colour} bytes of JPEG a picture");
+    assert!(packed(3) < 24_000, "{} bytes of depth a picture", packed(3));
 }
