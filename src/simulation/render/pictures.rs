@@ -11,6 +11,9 @@ const TURBO: [[f32; 6]; 3] = [
     [0.106_673_3, 12.641_946, -60.582_05, 110.362_77, -89.903_11, 27.348_25],
 ];
 
+/// Where on Turbo the nearest depth is: below, it is nearly black, which stands for no depth.
+const NEAREST: f32 = 0.08;
+
 impl Frame {
     /// Depth in colours from blue (near) to red (far), over the depths there are; black where
     /// nothing is seen.
@@ -30,7 +33,7 @@ pub fn depth_colours(depth_mm: &[u16]) -> Vec<[u8; 3]> {
     let (nearest, farthest) = (seen().min().unwrap_or(0), seen().max().unwrap_or(0));
     let range = f32::from((farthest - nearest).max(1));
     let colour = |mm: u16| match mm.checked_sub(nearest) {
-        Some(beyond) if mm > 0 => turbo(f32::from(beyond) / range),
+        Some(beyond) if mm > 0 => turbo(NEAREST + (1.0 - NEAREST) * f32::from(beyond) / range),
         _ => [0; 3],
     };
     depth_mm.iter().map(|mm| colour(*mm)).collect()
