@@ -16,6 +16,7 @@ mod output;
 mod plan;
 mod progress;
 mod recover;
+mod render;
 mod replay;
 mod reprocess;
 mod simulate;
@@ -74,6 +75,7 @@ enum Command {
     Simulate(simulate::Simulate),
     House(house::House),
     Plan(plan::Plan),
+    Render(render::Render),
     Demo(demo::Demo),
 }
 
@@ -131,6 +133,7 @@ impl Cli {
             Command::Simulate(args) => simulate::run(&args, out),
             Command::House(args) => house::run(&args, out),
             Command::Plan(args) => plan::run(&args, out),
+            Command::Render(args) => render::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

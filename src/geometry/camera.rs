@@ -1,6 +1,8 @@
 //! A pinhole camera with lens distortion: [`Camera`].
 
-use nalgebra::{Point2, Point3, Vector2, Vector3};
+use nalgebra::{
+    Isometry3, Point2, Point3, Rotation3, Translation3, UnitQuaternion, Vector2, Vector3,
+};
 
 /// Newton steps after which a distorted point is given up; ten suffice for real lenses.
 const STEPS_MAX: u32 = 50;
@@ -35,7 +37,7 @@ impl Camera {
 
     /// Whether straight lines stay straight.
     pub fn is_ideal(&self) -> bool {
-        self.distortion == [0.0; 5]
+        self.distortion.iter().all(|it| *it == 0.0)
     }
 
     /// The pixel (u, v) at which a point of the camera frame appears, inside the picture or not.
@@ -130,6 +132,25 @@ impl Camera {
     }
 }
 
+/// `world_from_camera` of an optical frame at `eye`, upright, that looks along a heading (`yaw`,
+/// counter-clockwise from x) and up by `pitch`, radians.
+pub fn looking_along(eye: Point3<f64>, yaw: f64, pitch: f64) -> Isometry3<f64> {
+    let level = libm::cos(pitch);
+    let forward = Vector3::new(level * libm::cos(yaw), level * libm::sin(yaw), libm::sin(pitch));
+    let right = Vector3::new(libm::sin(yaw), -libm::cos(yaw), 0.0);
+    let basis = [right, forward.cross(&right), forward];
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_basis_unchecked(&basis));
+    Isometry3::from_parts(Translation3::from(eye), rotation)
+}
+
+/// `world_from_camera` of an optical frame at `eye`, upright, that looks at `target`. Straight up
+/// and down, the picture's upper edge is towards x; if the two are one, it looks along x.
+pub fn looking_at(eye: Point3<f64>, target: Point3<f64>) -> Isometry3<f64> {
+    let to = target - eye;
+    let yaw = libm::atan2(to.y, to.x);
+    looking_along(eye, yaw, libm::atan2(to.z, libm::hypot(to.x, to.y)))
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -157,6 +178,26 @@ mod tests {
         assert!(pixel.x > camera.centre[0] && pixel.y > camera.centre[1]);
     }
 
+    #[track_caller]
+    fn check_looking(eye: [f64; 3], target: [f64; 3]) {
+        let world_from_camera = looking_at(eye.into(), target.into());
+        let seen = world_from_camera.inverse() * Point3::from(target);
+        let distance = (Point3::from(target) - Point3::from(eye)).norm();
+        assert!((seen - Point3::new(0.0, 0.0, distance)).norm() < 1e-9, "{seen}");
+        let down = world_from_camera * Vector3::y();
+        assert!(down.z <= 1e-9, "down in the picture is {down}");
+        assert!((world_from_camera * Vector3::x()).z.abs() < 1e-9, "the horizon is level");
+    }
+
+    #[test]
+    fn what_is_looked_at_is_in_the_middle_and_upright() {
+        check_looking([0.0, 0.0, 1.0], [2.0, 0.0, 1.0]);
+        check_looking([1.0, -2.0, 1.5], [-2.0, 3.0, 0.2]);
+        check_looking([1.0, 2.0, 0.5], [1.0, -4.0, 2.0]);
+        check_looking([1.0, 2.0, 3.0], [1.0, 2.0, 0.0]);
+        check_looking([1.0, 2.0, 0.0], [1.0, 2.0, 3.0]);
+    }
+
     #[test]
     fn what_is_behind_is_not_seen() {
         assert_eq!(camera([0.0; 5]).project(&Point3::new(0.0, 0.0, -1.0)), None);
@@ -179,7 +220,7 @@ mod tests {
         ) {
             let camera = camera(LENS.map(|k| k * scale));
             let point = camera.back_project(u, v, depth).unwrap();
-            prop_assert_eq!(point.z, depth);
+            prop_assert!((point.z - depth).abs() < 1e-12);
             let pixel = camera.project(&point).unwrap();
             prop_assert!((pixel - Point2::new(u, v)).amax() < 1e-8, "{pixel}");
             prop_assert!(camera.contains(&pixel) || u < -0.499_999 || v < -0.499_999);

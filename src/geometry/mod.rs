@@ -9,7 +9,7 @@ mod extent;
 mod grid;
 mod pose;
 
-pub use camera::Camera;
+pub use camera::{Camera, looking_along, looking_at};
 pub use extent::Size;
 pub use grid::{GeometryError, Micrometres};
 pub use pose::{Pose, Tolerance};

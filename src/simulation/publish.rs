@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::Isometry3;
 
 use super::house::House;
-use super::render::{InstanceId, Scene};
+use super::render::HouseScene;
 use super::robot::behaviour::Report;
 use super::robot::motion::Body;
 use super::scenario::{Errand, Scenario};
@@ -36,8 +36,7 @@ pub const GRIPPER: &str = "gripper";
 
 /// Draws what the camera sees and words what the robot says.
 pub struct Publisher {
-    scene: Scene,
-    things: Vec<InstanceId>,
+    house: HouseScene,
     camera: Camera,
     noise: NoiseConfig,
     seed: u64,
@@ -51,8 +50,7 @@ impl Publisher {
     pub fn new(scenario: &Scenario, house: &Arc<House>) -> Self {
         let camera = &scenario.robot.camera;
         Self {
-            scene: building(house),
-            things: Vec::new(),
+            house: HouseScene::new(house),
             camera: Camera::with_fov(camera.width, camera.height, camera.fov_deg.to_radians()),
             noise: scenario.noise.clone(),
             seed: scenario.seed,
@@ -99,7 +97,7 @@ impl Publisher {
     /// The messages of the camera, and the true mask.
     pub fn picture(&mut self, story: &Story, at: Stamp) -> Result<(Vec<Event>, Event), FileError> {
         self.set_scene(story.world());
-        let frame = self.scene.render(&self.camera, &story.body().world_from_camera());
+        let frame = self.house.scene.render(&self.camera, &story.body().world_from_camera());
         let picture = Picture::take(&frame, &self.camera, &self.noise, self.seed, self.pictures);
         self.pictures += 1;
         let events = vec![
@@ -112,39 +110,19 @@ impl Publisher {
 
     /// Puts every thing where it is by now.
     fn set_scene(&mut self, world: &TrueWorld) {
-        for n in self.things.len()..world.len() {
+        let HouseScene { scene, things } = &mut self.house;
+        for n in things.len()..world.len() {
             let (thing, mask) = (world.thing(n), n as u16 + 1);
-            self.things.push(self.scene.add(&thing.mesh, &thing.pose.isometry(), mask));
+            things.push(scene.add(&thing.mesh, &thing.pose.isometry(), mask));
         }
-        for (n, instance) in self.things.iter().enumerate() {
+        for (n, instance) in things.iter().enumerate() {
             let pose: Isometry3<f64> = world.thing(n).pose.isometry();
-            if *self.scene.pose(*instance) != pose {
-                self.scene.place(*instance, &pose);
+            if *scene.pose(*instance) != pose {
+                scene.place(*instance, &pose);
             }
-            self.scene.show(*instance, world.presence(n) != Presence::Gone);
+            scene.show(*instance, world.presence(n) != Presence::Gone);
         }
     }
-}
-
-/// The building without its things, a lamp in each room.
-fn building(house: &House) -> Scene {
-    let lamps = house.rooms.iter().map(|room| {
-        let n = room.outline.len() as f64;
-        let middle = |axis: usize| room.outline.iter().map(|at| at[axis]).sum::<f64>() / n;
-        let position = [middle(0), middle(1), house.wall_height_m - 0.15];
-        let (radius_m, colour, strength, room) = (0.2, [1.0, 0.97, 0.9], 1.6, room.outline.clone());
-        crate::simulation::render::Lamp { position, radius_m, colour, strength, room }
-    });
-    let lighting = crate::simulation::render::Lighting {
-        lamps: lamps.collect(),
-        ambient: crate::simulation::render::Ambient::default(),
-        background: [0.55, 0.6, 0.66],
-    };
-    let mut scene = Scene::new(lighting);
-    for slab in [house.walls(), house.floors(), house.ceilings()].into_iter().flatten() {
-        scene.add(&slab.mesh, &slab.pose.isometry(), 0);
-    }
-    scene
 }
 
 fn task_id(n: usize) -> String {

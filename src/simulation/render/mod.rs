@@ -5,8 +5,10 @@
 //! shadows and ambient occlusion by parry's rays through a tree of the meshes' trees.
 
 mod frame;
+mod house;
 mod light;
 mod occlusion;
+mod pictures;
 mod raster;
 mod scene;
 mod shade;
@@ -20,6 +22,8 @@ mod visible;
 
 pub use frame::Frame;
 pub(super) use frame::millimetres;
+pub use house::HouseScene;
 pub use light::{Ambient, Lamp, Lighting};
+pub use pictures::{depth_colours, mask_colour};
 pub use scene::{InstanceId, RayHit, Scene};
 pub(super) use tone::{encode, linear};

@@ -74,10 +74,14 @@ impl Shadows {
         let raw = by_rows(columns, rows, sample);
         let smooth = |column: usize, row: usize| {
             let own = raw[row * columns + column]?;
-            let near = window(column, row, columns, rows).filter_map(|n| raw[n]);
-            let alike =
-                near.filter(|it| alike(it, own.at, own.normal)).map(|it| (it.openness, 1.0));
-            Some(Sample { openness: mean(alike)?, ..own })
+            let over = |tiles: usize| {
+                let near = window(column, row, columns, rows, tiles).filter_map(|n| raw[n]);
+                let near = near.filter(move |it| alike(it, own.at, own.normal));
+                near.map(|it| (it.openness, 1.0))
+            };
+            // At the edge of a surface a tile lacks directions: those farther off make up for it.
+            let tiles = if over(1).count() < TILE * TILE { 2 } else { 1 };
+            Some(Sample { openness: mean(over(tiles))?, ..own })
         };
         let samples = by_rows(columns, rows, smooth);
         Self { samples, columns, rows, rays }
@@ -121,10 +125,17 @@ fn by_rows(
     samples
 }
 
-/// The samples of the tile about a sample: each of the 16 directions once.
-fn window(column: usize, row: usize, columns: usize, rows: usize) -> impl Iterator<Item = usize> {
-    let span =
-        |at: usize, size: usize| at.saturating_sub(TILE / 2 - 1)..(at + TILE / 2 + 1).min(size);
+/// The samples of so many tiles each way about a sample; of one tile, each of the 16 directions
+/// once.
+fn window(
+    column: usize,
+    row: usize,
+    columns: usize,
+    rows: usize,
+    tiles: usize,
+) -> impl Iterator<Item = usize> {
+    let half = tiles * TILE / 2;
+    let span = move |at: usize, size: usize| at.saturating_sub(half - 1)..(at + half + 1).min(size);
     let across = span(column, columns);
     span(row, rows).flat_map(move |row| across.clone().map(move |column| row * columns + column))
 }

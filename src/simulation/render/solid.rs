@@ -36,7 +36,7 @@ impl Solid {
         let vertices: Vec<Vector> = mesh.vertices.iter().map(|at| Vector::from(*at)).collect();
         let rays = TriMesh::new(vertices, mesh.triangles.clone()).ok();
         let bounds = bounds(&mesh.vertices);
-        Self { rays, normals, corners, materials, bounds, mesh }
+        Self { mesh, rays, normals, corners, materials, bounds }
     }
 
     /// The corners of its box.

@@ -57,7 +57,7 @@ fn gain(config: &NoiseConfig, frame: &Frame, dice: Dice) -> f64 {
 fn response(gain: f64) -> [f32; 256] {
     let mut table = [0.0; 256];
     for (byte, value) in (0..=u8::MAX).zip(&mut table) {
-        *value = if gain == 1.0 {
+        *value = if (gain - 1.0).abs() < 1e-9 {
             byte.into()
         } else {
             let light = linear([f32::from(byte) / 255.0; 3]);

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-/// The finaliser of SplitMix64 (G. Steele, D. Lea and C. Flood, "Fast splittable pseudorandom
+/// The finaliser of `SplitMix64` (G. Steele, D. Lea and C. Flood, "Fast splittable pseudorandom
 /// number generators", 2014): fixed for good, as recordings depend on it.
 const fn mixed(mut bits: u64) -> u64 {
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

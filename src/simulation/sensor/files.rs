@@ -55,7 +55,9 @@ pub fn jpeg(
     let mut file = Vec::new();
     let mut encoder = Encoder::new(&mut file, quality);
     encoder.set_sampling_factor(SamplingFactor::F_2_2);
-    encoder.set_optimized_huffman_tables(true);
+    // Optimised tables would save a few per cent, but this encoder then writes a scan for each
+    // component, whose subsampled colour zune-jpeg 0.5 reads as none (libjpeg reads it).
+    encoder.set_optimized_huffman_tables(false);
     encoder.encode(colour.as_flattened(), w, h, ColorType::Rgb)?;
     Ok(file)
 }

@@ -112,6 +112,8 @@ pub fn tf_message(at: Stamp, topic: &str, transforms: &[Transform<'_>]) -> Event
 }
 
 #[cfg(test)]
+// Numbers come back bit by bit.
+#[allow(clippy::float_cmp)]
 mod tests {
     use super::*;
     use crate::wire::ros2::{

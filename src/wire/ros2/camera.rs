@@ -99,6 +99,8 @@ fn distortion(info: &CameraInfo<'_>) -> Result<[f64; 5], CameraInfoError> {
 }
 
 #[cfg(test)]
+// Numbers come back bit by bit.
+#[allow(clippy::float_cmp)]
 mod tests {
     use super::*;
 

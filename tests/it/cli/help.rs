@@ -22,6 +22,7 @@ const COMMANDS: &[&str] = &[
     "simulate",
     "house",
     "plan",
+    "render",
     "demo",
 ];
 

@@ -6,6 +6,7 @@ mod help;
 mod houses;
 mod ingest;
 mod json;
+mod render;
 mod streams;
 
 use std::path::{Path, PathBuf};

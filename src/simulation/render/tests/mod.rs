@@ -1,5 +1,6 @@
 //! Pictures of what is known.
 
 mod depth;
+mod houses;
 mod scenes;
 pub(super) mod shapes;
