@@ -48,7 +48,7 @@ fn lighting() -> Lighting {
 
 fn things() -> Vec<Thing> {
     let wall = Texture::Grain { scale_m: 0.02, strength: 0.2 };
-    let shell = grid(1, |u, v| cube_face(u, v), [6.0, 5.0, 2.5], wall);
+    let shell = grid(1, cube_face, [6.0, 5.0, 2.5], wall);
     let mut things = vec![(shell, Isometry3::translation(0.0, 0.0, 1.25))];
     let wood = Texture::Grain { scale_m: 0.01, strength: 0.4 };
     let checks = Texture::Checker { side_m: 0.05, second: [0.1, 0.2, 0.6] };

@@ -86,18 +86,18 @@ impl Topic {
     /// Its role.
     pub fn role(&self) -> Role {
         match self {
-            Self::InitialGraph
-            | Self::Utterance
-            | Self::Task
-            | Self::TaskStatus
-            | Self::Clock
-            | Self::TrueChange => Role::Input,
             Self::Interpretation | Self::Change | Self::Primitive => Role::Derived,
             Self::Checkpoint => Role::Cache,
             Self::Sensor(name) if name.starts_with("/model/") => Role::Model,
             Self::Sensor(name) if name.starts_with("/evidence/") => Role::Derived,
             Self::Sensor(name) if name.starts_with("/viz/") => Role::Projection,
-            Self::Sensor(_) => Role::Input,
+            Self::InitialGraph
+            | Self::Utterance
+            | Self::Task
+            | Self::TaskStatus
+            | Self::Clock
+            | Self::TrueChange
+            | Self::Sensor(_) => Role::Input,
         }
     }
 }

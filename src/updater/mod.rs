@@ -147,7 +147,6 @@ impl Updater {
                 // Recorded either way; the truth never contradicts itself.
                 let _ = desk.claim(Claim { evidence, ..change.claim.clone() });
             }
-            (Detectors::None | Detectors::Truth, _) => {}
             (Detectors::All, Event::Task(task)) => self.action.task(&mut desk, order, task),
             (Detectors::All, Event::TaskStatus(status)) => self.action.task_status(&mut desk, order, status),
             _ => {}

@@ -20,8 +20,9 @@ pub struct ScenarioError {
 }
 
 impl ScenarioError {
-    fn new(path: impl Into<String>, what: impl ToString) -> Self {
-        Self { path: path.into(), what: what.to_string() }
+    fn new(path: impl Into<String>, what: impl std::fmt::Display) -> Self {
+        let (path, what) = (path.into(), what.to_string());
+        Self { path, what }
     }
 }
 

@@ -93,6 +93,9 @@ pub fn generate(name: &str, house: &Arc<House>, seed: u64, draw: Draw) -> Scenar
     draft.scenario
 }
 
+/// So many supports are tried before something is left where it is.
+const TRIES: usize = 20;
+
 #[derive(Clone, Copy)]
 enum Kind {
     Remove,
@@ -199,7 +202,6 @@ impl Draft {
             .filter(|n| !world.thing(*n).surfaces.is_empty() && Some(*n) != thing.support)
             .filter(|n| !world.thing(*n).movable)
             .collect();
-        const TRIES: usize = 20;
         (0..TRIES).find_map(|_| {
             let on = self.world.thing(*self.random.pick(&supports)?).name.clone();
             let place = Place { on: Some(on), ..Place::default() };
