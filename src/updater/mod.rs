@@ -18,6 +18,7 @@ use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
+use crate::modality::human::{HumanDetector, Said};
 use crate::time::Stamp;
 
 /// The world, the detectors with their memory, and the counters of the log.
@@ -26,6 +27,7 @@ pub struct Updater {
     config: Config,
     world: World,
     action: ActionDetector,
+    human: HumanDetector,
     /// Number of the last event.
     order: u64,
     /// Number of the last change.
@@ -61,6 +63,7 @@ impl Updater {
             config,
             world: World::default(),
             action: ActionDetector::default(),
+            human: HumanDetector::default(),
             order: 0,
             changes: 0,
             at: Stamp::EPOCH,
@@ -141,6 +144,10 @@ impl Updater {
         let plan = self.config.plan();
         let mut desk = Desk::new(&mut self.world, &plan, self.at, self.changes);
         match input {
+            Event::Utterance(said) => {
+                let said = Said { order, text: &said.text, similarity: None };
+                self.human.utterance(&mut desk, &said);
+            }
             Event::Task(task) => self.action.task(&mut desk, order, task),
             Event::TaskStatus(status) => self.action.task_status(&mut desk, order, status),
             _ => {}

@@ -108,7 +108,7 @@ word_lists!(
     openers, adverbs, particles, places_adverbs, goal, strong_goal, near, source,
     other_prepositions, companions, adjectives, colours, sizes, novelty, nouns_too, foreign,
     outsiders, elsewhere, other_homes, away_places, waste, rooms, partitives, parts, pluralia,
-    gone_words,
+    gone_words, beings, abstract_nouns, light_objects,
 );
 
 /// Expressions of time.
@@ -146,8 +146,8 @@ pub(super) struct Lexicon {
     pub words: Words,
     pub times: Times,
     pub names: Names,
-    /// Prepositions of more than one word, longest first, and all others.
-    pub prepositions: Vec<(Vec<String>, Preposition)>,
+    /// Prepositions by their first word, those of most words first.
+    pub prepositions: BTreeMap<String, Vec<(Vec<String>, Preposition)>>,
 }
 
 /// What a preposition tells of the thing that follows.
@@ -213,17 +213,18 @@ fn forms(verbs: &[Verb]) -> BTreeMap<String, Vec<VerbForm>> {
     forms
 }
 
-fn prepositions(words: &Words) -> Vec<(Vec<String>, Preposition)> {
-    let mut all = Vec::new();
+fn prepositions(words: &Words) -> BTreeMap<String, Vec<(Vec<String>, Preposition)>> {
+    let mut all: BTreeMap<String, Vec<(Vec<String>, Preposition)>> = BTreeMap::new();
     let mut add = |list: &BTreeSet<String>, role: &dyn Fn(&str) -> Preposition| {
         for phrase in list {
-            all.push((phrase.split(' ').map(str::to_owned).collect::<Vec<_>>(), role(phrase)));
+            let words: Vec<String> = phrase.split(' ').map(str::to_owned).collect();
+            all.entry(words[0].clone()).or_default().push((words, role(phrase)));
         }
     };
     add(&words.goal, &|phrase| Preposition::Goal(words.strong_goal.contains(phrase)));
     add(&words.near, &|_| Preposition::Near);
     add(&words.source, &|_| Preposition::Source);
     add(&words.other_prepositions, &|_| Preposition::Other);
-    all.sort_by_key(|(phrase, _)| std::cmp::Reverse(phrase.len()));
+    all.values_mut().for_each(|of| of.sort_by_key(|(words, _)| std::cmp::Reverse(words.len())));
     all
 }
