@@ -349,6 +349,8 @@ impl Parser<'_> {
                 next += 1;
             } else if self.words.is_in(&lists.be, next) {
                 next += 1;
+            } else if be && self.words.is_in(&lists.gone_words, next) {
+                break;
             } else if !self.words.verb(next).is_empty() && !(be && self.noun_after_be(next)) {
                 self.take_verb(next, be, perfect, &mut group);
                 break;
