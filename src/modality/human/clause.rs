@@ -487,7 +487,9 @@ impl Parser<'_> {
                 joined = true;
                 after += 3;
             }
-            let Some((phrase, end)) = self.words.noun_phrase(after).filter(|_| joined) else { break };
+            let verb = self.words.has_form(after, &[Form::Base])
+                && (self.words.preposition(after + 1).is_some() || self.words.noun_starts(after + 1) || self.words.is_plain(after + 1));
+            let Some((phrase, end)) = self.words.noun_phrase(after).filter(|_| joined && !verb) else { break };
             if phrase.pronoun && !subject && self.verb_follows(end) {
                 break;
             }

@@ -70,12 +70,17 @@ impl<'a> Wanted<'a> {
         let with_full = if self.adjectives.is_empty() { None } else { names.compare(&said, &full).filter(|it| *it < Closeness::Compound(0)) };
         let closeness = with_full.or(with_core).or_else(|| names.compare(&self.noun, &full));
         let closeness = closeness.or_else(|| self.part(&core).then_some(Closeness::Part));
-        let typical = || {
-            let said = names.typical(&said, &full);
-            said.or_else(|| names.typical(&self.noun, &full)).map(Closeness::Typical)
-        };
-        let closeness = closeness.or_else(|| guess.then(typical).flatten())?;
+        let closeness = if guess { self.usual(&said, &full, closeness) } else { closeness }?;
         Some((closeness, missing))
+    }
+
+    /// What people often mean by the words, where nothing closer is known.
+    fn usual(&self, said: &Name, label: &Name, known: Option<Closeness>) -> Option<Closeness> {
+        let names = &self.lexicon.names;
+        let typical = names.typical(said, label).or_else(|| names.typical(&self.noun, label));
+        let typical = typical.map(Closeness::Typical);
+        let often = || names.often(said, label).or_else(|| names.often(&self.noun, label)).map(Closeness::Often);
+        [known, typical].into_iter().flatten().min().or_else(often)
     }
 
     /// The label without the adjectives it begins with.
