@@ -190,6 +190,8 @@ impl Parser<'_> {
             // "I told you that …" is still the speaker's own report.
             Some(Frame::Report) if speaker && clause.verb.as_ref().is_some_and(|it| matches!(it.lemma.as_str(), "tell" | "say" | "mention")) => {}
             Some(Frame::Report | Frame::Belief) => self.reported = true,
+            // "I hope the keys are …".
+            Some(Frame::Wish) => self.reported |= tokens.get(to).is_some_and(|next| next.word && !self.words.is_in(&self.words.lexicon.words.conjunctions, to)),
             _ => {}
         }
         self.clauses.push(clause);
@@ -255,8 +257,16 @@ impl Parser<'_> {
             return Some(at + 1);
         }
         // A verb without a subject: "put", unless it is a noun here.
-        let list = self.list(at, true);
-        let (things, next) = list?;
+        let (mut things, mut next) = self.list(at, true)?;
+        // "the mug on the desk is …": the place tells which.
+        if let (Some((place, after)), Some(last)) = (self.place(next), things.last_mut())
+            && place.role != Preposition::Other
+            && self.verb_follows(after)
+            && !self.verb_follows(next)
+        {
+            last.mention.at.extend(place.things.into_iter().map(|it| it.mention));
+            next = after;
+        }
         if !self.verb_follows(next) && self.words.has_form(at, &[Form::Base, Form::Past]) {
             return None;
         }
@@ -349,7 +359,7 @@ impl Parser<'_> {
                 next += 1;
             } else if self.words.is_in(&lists.be, next) {
                 next += 1;
-            } else if be && self.words.is_in(&lists.gone_words, next) {
+            } else if self.words.is_in(&lists.gone_words, next) && !perfect && (be || self.words.word(next) == "gone") {
                 break;
             } else if !self.words.verb(next).is_empty() && !(be && self.noun_after_be(next)) {
                 self.take_verb(next, be, perfect, &mut group);

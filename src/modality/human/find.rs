@@ -15,6 +15,11 @@ pub trait LabelSimilarity {
     fn nearest(&self, noun: &str, labels: &[&str]) -> Option<(usize, f64)>;
 }
 
+/// What is called by what it holds.
+const CONTAINERS: [&str; 12] = [
+    "bottle", "can", "box", "bag", "jar", "pack", "packet", "carton", "bar", "roll", "tube", "plant",
+];
+
 /// A node that may be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Candidate {
@@ -106,7 +111,15 @@ impl<'a> Wanted<'a> {
         let words = &self.lexicon.words;
         let Some((last, before)) = self.noun.words.split_last() else { return false };
         let part = words.parts.contains(last) || words.partitives.contains(last);
-        let held = matches!(last.as_str(), "bottle" | "can" | "box" | "bag" | "jar" | "pack" | "packet" | "carton" | "bar" | "roll" | "tube" | "plant");
+        let held = CONTAINERS.contains(&last.as_str());
+        // "the soap" of the soap bottle.
+        if let Some((container, what)) = label.words.split_last()
+            && !what.is_empty()
+            && CONTAINERS.contains(&container.as_str())
+            && Name::of(what.to_vec()).key == self.noun.key
+        {
+            return true;
+        }
         if before.is_empty() || !(part || held) {
             return false;
         }

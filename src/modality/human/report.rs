@@ -77,10 +77,20 @@ fn no_report(lexicon: &Lexicon, sentence: &Sentence) -> Option<&'static str> {
     if any(&words.foreign) {
         return Some("another language");
     }
+    let pair = |a: &str, b: &[&str]| tokens.windows(2).any(|two| two[0].is(a) && b.iter().any(|b| two[1].is(b)));
+    if pair("in", &["case"]) {
+        return Some("a condition");
+    }
+    if pair("every", &["day", "morning", "evening", "night", "week", "time", "month", "year", "weekend", "afternoon"]) {
+        return Some("a habit");
+    }
     let first = tokens.iter().position(|token| {
         token.word && !words.interjections.contains(&token.text) && !words.conjunctions.contains(&token.text)
     });
     let first = first.map_or("", |n| tokens[n].text.as_str());
+    if matches!(first, "none" | "nobody" | "neither" | "nothing") || pair("no", &["one"]) {
+        return Some("a negation");
+    }
     let asks = words.questions.contains(first)
         || words.r#do.contains(first)
         || words.modals.contains(first)
@@ -168,6 +178,10 @@ impl Reporter<'_> {
         if clause.future {
             return Some("it lies ahead");
         }
+        let find = clause.verb.as_ref().is_some_and(|verb| verb.lemma == "find");
+        if find && clause.unreal == Some(Unreal::Possible) && clause.subject == Subject::Pronoun("you".to_owned()) {
+            return None;
+        }
         match clause.unreal {
             Some(Unreal::Negated) if !clause.no_longer && !self.is_used_up(clause) => return Some("a negation"),
             Some(Unreal::Possible) => return Some("a wish, a plan or a guess"),
@@ -213,6 +227,7 @@ impl Reporter<'_> {
             _ => &[],
         };
         let second = if clause.second.is_empty() { &clause.objects } else { &clause.second };
+        let subject = if second.is_empty() { subject } else { &[] };
         for things in [second.as_slice(), subject] {
             let known = things.iter().filter(|it| !it.pronoun && it.mention.noun != "one" && !self.is_being(&it.mention));
             let mentions: Vec<Mention> = known.map(|it| it.mention.clone()).collect();
@@ -606,6 +621,7 @@ impl Reporter<'_> {
     fn target_of(&self, places: &[Place]) -> Target {
         let mut target = Target::default();
         let goals = places.iter().filter(|place| matches!(place.role, Preposition::Goal(_) | Preposition::Near));
+        let mut near = false;
         for place in goals {
             let Some(thing) = place.things.first() else { continue };
             if thing.bare && !thing.plural && !self.knows(&thing.mention) && !thing.pronoun && !self.is_away(&thing.mention) {
@@ -619,7 +635,12 @@ impl Reporter<'_> {
                 }
                 target.room.get_or_insert(mention);
             } else if first && place.role == Preposition::Near {
+                near = true;
                 target.room = Some(mention);
+            } else if near && place.role != Preposition::Near {
+                // "next to the vase on the shelf".
+                near = false;
+                target = Target { room: None, support: Some(mention) };
             } else if first {
                 target.room = mention.at.first().filter(|at| self.is_room(at)).cloned();
                 target.support = Some(mention);
@@ -711,7 +732,7 @@ impl Reporter<'_> {
         let same = |draft: &&mut Draft| draft.statement.object.span == new.object.span && new.object.span.is_some();
         let Some(before) = self.drafts.iter_mut().rev().find(same) else { return false };
         let old = &mut before.statement;
-        let told = new.support.is_some() || new.target_room.is_some();
+        let told = new.support.is_some() || new.target_room.is_some() || new.action == Action::Removed;
         let refines = !before.open
             && old.action != Action::Removed
             && new.action != Action::Removed
@@ -727,6 +748,7 @@ impl Reporter<'_> {
         let when = new.when.or(old.when);
         let action = if added || old.action == new.action { old.action } else { new.action };
         let action = if refines { action } else if added { Action::Added } else { new.action };
+        let action = if new.action == Action::Removed { new.action } else { action };
         *old = Statement { when, action, ..new.clone() };
         old.object.definite = definite;
         old.object.at = at;
