@@ -203,6 +203,9 @@ fn forms(verbs: &[Verb]) -> BTreeMap<String, Vec<VerbForm>> {
             forms.entry(word).or_default().push(VerbForm { verb, form });
         }
     }
+    if let Some(verb) = verbs.iter().position(|it| it.verb == "have") {
+        forms.entry("has".to_owned()).or_default().push(VerbForm { verb, form: Form::Present });
+    }
     for (word, regular) in [("burned", "burn"), ("broke", "break"), ("dreamed", "dream"), ("hanged", "hang")] {
         if let Some(verb) = verbs.iter().position(|it| it.verb == regular) {
             for form in [Form::Past, Form::Participle] {

@@ -30,6 +30,7 @@ mod times;
 mod token;
 
 pub use detector::{HumanDetector, Said};
+pub(crate) use detector::spans;
 pub use errand::{Errand, GroundedErrand, ground_errand, read_task};
 pub use find::LabelSimilarity;
 pub use ground::{GroundConfig, Grounding, Places, Resolved, Verdict, ground};

@@ -108,7 +108,7 @@ impl<'a> Words<'a> {
         if self.word(at) == "can" && words > 0 && self.verb(at + 1).is_empty() {
             return !self.is_in(&lists.subjects, at + 1) && !self.is_in(&lists.be, at + 1);
         }
-        if self.is_in(&lists.parts, at) && self.word(at + 1) == "of" {
+        if words == 0 && self.is_in(&lists.parts, at) && self.word(at + 1) == "of" {
             return true;
         }
         if self.is_function_word(at) {
