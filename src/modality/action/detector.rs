@@ -82,6 +82,19 @@ impl ActionDetector {
         memory::write(&self.tasks, out);
     }
 
+    /// Whether no task has parts that are still to come.
+    pub(crate) fn is_simple(&self) -> bool {
+        self.tasks.values().all(|task| task.rest.is_empty())
+    }
+
+    pub(crate) fn write_parts(&self, out: &mut Writer) {
+        memory::write_rest(&self.tasks, out);
+    }
+
+    pub(crate) fn read_parts(&mut self, input: &mut Reader<'_>) -> Result<(), CanonicalError> {
+        memory::read_rest(&mut self.tasks, input)
+    }
+
     pub(crate) fn read_bytes(input: &mut Reader<'_>) -> Result<Self, CanonicalError> {
         Ok(Self { tasks: memory::read(input)? })
     }

@@ -40,11 +40,35 @@ pub(super) fn write(tasks: &Tasks, out: &mut Writer) {
             out.u64(*order);
             write_task(out, task);
         });
-        out.u64(task.rest.len() as u64);
-        task.rest.iter().for_each(|task| write_task(out, task));
         out.u64(task.in_hand.len() as u64);
         task.in_hand.iter().for_each(|grasp| write_grasp(grasp, out));
     }
+}
+
+/// Writes what tasks ask for after what they are at, which follows everything else.
+pub(super) fn write_rest(tasks: &Tasks, out: &mut Writer) {
+    let several = || tasks.iter().filter(|(_, task)| !task.rest.is_empty());
+    out.u64(several().count() as u64);
+    for (id, task) in several() {
+        out.text(id);
+        out.u64(task.rest.len() as u64);
+        task.rest.iter().for_each(|task| write_task(out, task));
+    }
+}
+
+pub(super) fn read_rest(tasks: &mut Tasks, input: &mut Reader<'_>) -> Result<(), CanonicalError> {
+    let malformed = CanonicalError::Malformed { what: "memory of the parts of tasks" };
+    try_read_rest(tasks, input).ok_or(malformed)
+}
+
+fn try_read_rest(tasks: &mut Tasks, input: &mut Reader<'_>) -> Option<()> {
+    for _ in 0..input.u64()? {
+        let id = input.text()?.to_owned();
+        let count = input.u64()?;
+        let rest = (0..count).map(|_| read_task(input, &id)).collect::<Option<_>>()?;
+        tasks.get_mut(&id)?.rest = rest;
+    }
+    Some(())
 }
 
 fn write_task(out: &mut Writer, task: &Task) {
@@ -87,8 +111,7 @@ fn read_tasks(input: &mut Reader<'_>) -> Option<Tasks> {
     for _ in 0..count {
         let task_id = input.text()?.to_owned();
         let announced = input.option(|input| Some((input.u64()?, read_task(input, &task_id)?)))?;
-        let count = input.u64()?;
-        let rest = (0..count).map(|_| read_task(input, &task_id)).collect::<Option<_>>()?;
+        let rest = Vec::new();
         let grasps = input.u64()?;
         let in_hand = (0..grasps).map(|_| read_grasp(input)).collect::<Option<_>>()?;
         tasks.insert(task_id, TaskMemory { announced, rest, in_hand });

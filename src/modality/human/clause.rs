@@ -3,7 +3,7 @@
 use super::lemma::Form;
 use super::lexicon::{Frame, Lexicon, Preposition};
 use super::phrase::{Phrase, Words};
-use super::reading::{Quantity, When};
+use super::reading::When;
 use super::times::{self, TimeSpan};
 use super::token::Sentence;
 use crate::time::Stamp;
@@ -719,10 +719,5 @@ impl Clause {
         };
         places.clone().any(|it| home(it) || old_home(it) || (it.theirs && outsider))
             || things.chain(subject).chain(places).any(their)
-    }
-
-    /// How many were meant by a list: used where a verb needs two.
-    pub fn is_pair(&self) -> bool {
-        self.objects.len() == 2 || (self.objects.len() == 1 && self.objects[0].mention.quantity == Quantity::Count(2))
     }
 }

@@ -45,7 +45,11 @@ impl HumanDetector {
         let context = if fresh { self.antecedents(desk) } else { Vec::new() };
         let understood = report::read(said.text, desk.at(), &context);
         match understood.correction {
-            Some(correction) if fresh && !self.memory.text.is_empty() => {
+            Some(correction)
+                if fresh
+                    && !self.memory.text.is_empty()
+                    && !(correction.answer && !self.memory.done.is_empty()) =>
+            {
                 self.corrected(desk, said, &correction);
             }
             _ => self.told(desk, said, &understood.reading, Self::NAME.into()),
@@ -143,7 +147,9 @@ impl HumanDetector {
         if let Some(object) = &correction.object {
             let one = matches!(object.noun.as_str(), "one" | "ones" | "other");
             let noun = if one { last.object.noun.clone() } else { object.noun.clone() };
-            statement.object = Mention { noun, definite: last.object.definite, ..object.clone() };
+            let at = [object.at.clone(), statement.object.at].concat();
+            let definite = last.object.definite;
+            statement.object = Mention { noun, definite, at, ..object.clone() };
         } else if let Some(same) = done.last() {
             statement.object.id = Some(same.id.to_string());
         }
@@ -188,6 +194,11 @@ impl HumanDetector {
         };
         // The record says what became of it either way.
         let _ = desk.claim(claim);
+    }
+
+    /// Whether nothing is remembered.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.memory == Memory::default()
     }
 
     pub(crate) fn write_bytes(&self, out: &mut Writer) {

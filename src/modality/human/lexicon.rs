@@ -105,8 +105,8 @@ macro_rules! word_lists {
 word_lists!(
     determiners, indefinite, possessives, subjects, objects, persons, be, be_past, have, r#do, modals,
     negations, conditionals, guesses, habits, subordinators, conjunctions, questions, interjections,
-    openers, adverbs, particles, places_adverbs, goal, strong_goal, near, source,
-    other_prepositions, companions, adjectives, colours, sizes, novelty, nouns_too, foreign,
+    adverbs, particles, places_adverbs, goal, strong_goal, near, source,
+    other_prepositions, adjectives, colours, sizes, novelty, nouns_too, foreign,
     outsiders, elsewhere, other_homes, away_places, waste, rooms, partitives, parts, pluralia,
     gone_words, beings, abstract_nouns, light_objects,
 );
