@@ -186,9 +186,12 @@ impl Parser<'_> {
         let frame = clause.verb.as_ref().map(|verb| verb.frame);
         let speaker = matches!(&clause.subject, Subject::Pronoun(who) if who == "i");
         match frame {
-            Some(Frame::Belief) if speaker && clause.unreal.is_none() => self.belief = true,
+            Some(Frame::Belief) if speaker && clause.unreal.is_none() && !clause.past => {
+                self.belief = true;
+            }
             // "I told you that …" is still the speaker's own report.
             Some(Frame::Report) if speaker && clause.verb.as_ref().is_some_and(|it| matches!(it.lemma.as_str(), "tell" | "say" | "mention")) => {}
+            // "I thought" tells of an error.
             Some(Frame::Report | Frame::Belief) => self.reported = true,
             // "I hope the keys are …".
             Some(Frame::Wish) => self.reported |= tokens.get(to).is_some_and(|next| next.word && !self.words.is_in(&self.words.lexicon.words.conjunctions, to)),
@@ -224,7 +227,6 @@ impl Parser<'_> {
             if clause.places.is_empty() && self.words.verb(next).is_empty()
                 && let Some((place, after)) = self.place(next)
                 && !matches!(place.preposition.as_str(), "like")
-                && after < self.words.tokens.len()
             {
                 clause.places.push(place);
                 next = after;
@@ -459,7 +461,13 @@ impl Parser<'_> {
     /// "and the vase to the bedroom": the verb is that of the clause before; or a headline:
     /// "No more milk", "New plant in the bedroom".
     fn without_verb(&mut self, start: usize, next: usize, mut clause: Clause) -> usize {
-        let Subject::Things(things) = std::mem::take(&mut clause.subject) else { return next.max(start + 1) };
+        let Subject::Things(things) = std::mem::take(&mut clause.subject) else {
+            // "no, in the bathroom": a place alone.
+            if clause.places.is_empty() || next < self.words.tokens.len() {
+                return next.max(start + 1);
+            }
+            return self.finish(start.min(next - 1), next, clause);
+        };
         let before = self.clauses.last().cloned();
         let mut to = next;
         clause.objects = things;

@@ -108,7 +108,7 @@ word_lists!(
     adverbs, particles, places_adverbs, goal, strong_goal, near, source,
     other_prepositions, adjectives, colours, sizes, novelty, nouns_too, foreign,
     outsiders, elsewhere, other_homes, away_places, waste, rooms, partitives, parts, pluralia,
-    gone_words, beings, abstract_nouns, light_objects,
+    gone_words, beings, abstract_nouns, light_objects, consumables, openers,
 );
 
 /// Expressions of time.

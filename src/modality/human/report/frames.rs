@@ -15,7 +15,18 @@ impl Reporter<'_> {
         if received || (verb.lemma == "borrow" && speaker && !things.iter().all(|it| it.0.definite)) {
             return self.acquire(clause, things, Target::default(), false);
         }
+        let used_up = |it: &&(Mention, Phrase)| self.is_consumable(&it.0);
+        if matches!(verb.lemma.as_str(), "finish" | "have") {
+            // "I finished the book" leaves the book.
+            let things: Vec<_> = things.iter().filter(used_up).cloned().collect();
+            return self.gone(clause, &things, 0.9);
+        }
         self.gone(clause, things, 0.9);
+    }
+
+    fn is_consumable(&self, mention: &Mention) -> bool {
+        let last = mention.noun.rsplit(' ').next().unwrap_or_default();
+        self.lexicon.words.consumables.contains(last)
     }
 
     pub(super) fn toss(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: Target) {
@@ -32,10 +43,17 @@ impl Reporter<'_> {
 
     pub(super) fn take(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: Target) {
         let light = |it: &(Mention, Phrase)| {
-            (!it.0.definite && self.lexicon.words.light_objects.contains(&it.0.noun)) || (it.1.bare && it.0.noun == "place")
+            (!it.0.definite
+                && self.lexicon.words.light_objects.contains(it.0.noun.rsplit(' ').next().unwrap_or_default())) || (it.1.bare && it.0.noun == "place")
         };
         if things.iter().any(light) {
             return;
+        }
+        let indefinite = things.iter().all(|(mention, phrase)| !mention.definite && !phrase.pronoun);
+        let anywhere = clause.places.iter().any(|place| place.role != Preposition::Other);
+        if matches!(verb.lemma.as_str(), "pick" | "collect" | "fetch") && indefinite && !anywhere {
+            // "I picked up some milk": from a shop.
+            return self.acquire(clause, things, target, true);
         }
         let along = clause.places.iter().any(|place| place.preposition == "with" && place.things.iter().any(|it| it.pronoun || self.is_being(&it.mention)));
         let strong = clause.places.iter().any(|place| place.role == Preposition::Goal(true));
@@ -171,7 +189,9 @@ impl Reporter<'_> {
 
     pub(super) fn have(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target) {
         if clause.past {
-            return;
+            // "I had the banana": for breakfast.
+            let eaten: Vec<_> = things.iter().filter(|it| it.0.definite && self.is_consumable(&it.0)).cloned().collect();
+            return self.gone(&Clause { places: Vec::new(), ..clause.clone() }, &eaten, 0.7);
         }
         if self.is_used_up(clause) || things.iter().any(|(_, phrase)| phrase.negative && phrase.more) {
             return self.gone(clause, things, 0.9);

@@ -11,7 +11,7 @@ use crate::modality::human::lemma::Form;
 use crate::modality::human::lexicon::{Frame, Lexicon, lexicon};
 use crate::modality::human::phrase::Phrase;
 use crate::modality::human::reading::{Mention, Reading, Statement};
-use crate::modality::human::token::{Sentence, is_no_speech, sentences};
+use crate::modality::human::token::{Sentence, Token, is_no_speech, sentences};
 use crate::time::Stamp;
 
 /// Statements taken from one utterance; nobody reports more in one breath.
@@ -51,7 +51,8 @@ pub(super) fn read(text: &str, said_at: Stamp, antecedents: &[Mention]) -> Under
         reporter.note("it holds marks that nobody speaks");
         return reporter.finish();
     }
-    for sentence in sentences(text) {
+    for mut sentence in sentences(text) {
+        leave_out_opener(lexicon, &mut sentence);
         if reporter.drafts.len() > MAX_STATEMENTS {
             reporter.note("it says too much at once: the rest was left out");
             break;
@@ -62,6 +63,31 @@ pub(super) fn read(text: &str, said_at: Stamp, antecedents: &[Mention]) -> Under
         }
     }
     reporter.finish()
+}
+
+/// "It turns out that I broke the vase" is "I broke the vase".
+fn leave_out_opener(lexicon: &Lexicon, sentence: &mut Sentence) {
+    let tokens = &sentence.tokens;
+    let interjection = |token: &Token| {
+        !token.word || lexicon.words.interjections.contains(&token.text)
+    };
+    let from = tokens.iter().take_while(|token| interjection(token)).count();
+    let fits = |phrase: &&String| {
+        let words = phrase.split([' ', '\'']).filter(|word| !word.is_empty());
+        let mut at = from;
+        for word in words {
+            let same = tokens.get(at).is_some_and(|token| token.text.trim_start_matches('\'') == word);
+            if !same {
+                return None;
+            }
+            at += 1;
+        }
+        Some(at)
+    };
+    let end = lexicon.words.openers.iter().filter_map(|phrase| fits(&phrase)).max();
+    if let Some(end) = end.filter(|end| *end < tokens.len()) {
+        sentence.tokens.drain(..end);
+    }
 }
 
 /// Why a sentence as a whole reports nothing.
@@ -210,7 +236,7 @@ impl Reporter<'_> {
     }
 
     fn tense(&self, clause: &Clause, verb: &Verb, told_before: bool) -> Option<&'static str> {
-        if verb.frame == Frame::Have || verb.passive && !matches!(verb.frame, Frame::None) {
+        if (verb.frame == Frame::Have && !clause.past) || verb.passive && !matches!(verb.frame, Frame::None) {
             return None;
         }
         if verb.progressive {
