@@ -66,8 +66,12 @@ impl HumanDetector {
     ) {
         let rests_on = vec![evidence(UTTERANCE_TOPIC, said.order)];
         if reading.statements.is_empty() {
-            let note = reading.note.clone();
-            desk.interpret(Interpretation { note, ..Interpretation::of(rests_on[0].clone()) });
+            // What the built-in interpreter finds to say nothing, it will find again; what a
+            // model made of it is worth a record.
+            if detector != Self::NAME {
+                let note = reading.note.clone();
+                desk.interpret(Interpretation { note, ..Interpretation::of(rests_on[0].clone()) });
+            }
             return;
         }
         let config = self.config(said, detector, rests_on);
