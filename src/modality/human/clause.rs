@@ -35,6 +35,8 @@ pub(super) enum Unreal {
 }
 
 /// The verb of a clause.
+// What a grammar notes of a clause are yes or no each.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Verb {
     pub frame: Frame,
@@ -61,6 +63,8 @@ pub(super) struct Place {
 }
 
 /// One clause.
+// What a grammar notes of a clause are yes or no each.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Clause {
     pub subject: Subject,
@@ -115,6 +119,8 @@ struct Parser<'a> {
 }
 
 /// What was read of a verb group.
+// What a grammar notes of a clause are yes or no each.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Debug, Default)]
 struct Group {
     verb: Option<Verb>,
@@ -320,6 +326,8 @@ impl Parser<'_> {
                 group.already |= word == "already";
                 group.now |= matches!(word, "now" | "currently");
                 next += 1;
+            } else if be && matches!(word, "both" | "all") {
+                next += 1;
             } else if word == "used" && self.words.word(next + 1) == "to" {
                 group.unreal = Some(Unreal::Habit);
                 next += 2;
@@ -363,7 +371,7 @@ impl Parser<'_> {
                 next += 1;
             } else if self.words.is_in(&lists.gone_words, next) && !perfect && (be || self.words.word(next) == "gone") {
                 break;
-            } else if !self.words.verb(next).is_empty() && !(be && self.noun_after_be(next)) {
+            } else if !(self.words.verb(next).is_empty() || be && self.noun_after_be(next)) {
                 self.take_verb(next, be, perfect, &mut group);
                 break;
             } else {
@@ -413,7 +421,7 @@ impl Parser<'_> {
         let entry = &self.words.lexicon.verbs[form.verb];
         Some(Verb {
             frame: entry.frame,
-            lemma: entry.verb.clone(),
+            lemma: entry.base.clone(),
             form: form.form,
             passive: false,
             progressive: false,
@@ -431,7 +439,7 @@ impl Parser<'_> {
             _ => Form::Past,
         };
         let Some(mut verb) = self.main_verb(at, wanted) else { return };
-        verb.passive = be && !gerund && !perfect || be && perfect && !gerund;
+        verb.passive = be && !gerund;
         verb.progressive = be && gerund;
         verb.perfect = perfect;
         group.past |= matches!(verb.form, Form::Past) || perfect;
@@ -573,10 +581,7 @@ impl Parser<'_> {
             } else if word == "anymore" || (word == "any" && matches!(self.words.word(next + 1), "more" | "longer")) {
                 clause.no_longer = true;
                 next += if word == "any" { 2 } else { 1 };
-            } else if matches!(word, "more" | "left") && (clause.copula || clause.verb.as_ref().is_none_or(|it| it.frame == Frame::Have)) {
-                clause.state.push(word.to_owned());
-                next += 1;
-            } else if lists.gone_words.contains(word) && (clause.copula || clause.verb.is_none()) {
+            } else if self.is_state(next, clause) {
                 clause.state.push(word.to_owned());
                 next += 1;
             } else if self.adverb(next, clause) {
@@ -618,6 +623,16 @@ impl Parser<'_> {
         true
     }
 
+    /// "left" and "more" of what there is, "gone" of what is not.
+    fn is_state(&self, at: usize, clause: &Clause) -> bool {
+        let have = |verb: &Verb| verb.frame == Frame::Have;
+        let left = matches!(self.words.word(at), "more" | "left")
+            && (clause.copula || clause.verb.as_ref().is_none_or(have));
+        let gone = self.words.is_in(&self.words.lexicon.words.gone_words, at)
+            && (clause.copula || clause.verb.is_none());
+        left || gone
+    }
+
     /// ", from the kitchen" goes on; ", I …" does not.
     fn goes_on_after_comma(&self, at: usize) -> bool {
         self.place(at).is_some_and(|(_, after)| !self.verb_follows(after) && self.words.word(after) != "there")
@@ -643,7 +658,7 @@ impl Parser<'_> {
     /// The particle of the verb, which may change what it means.
     fn particle(&self, at: usize, clause: &mut Clause) -> Option<usize> {
         let verb = clause.verb.as_mut()?;
-        let entry = self.words.lexicon.verbs.iter().find(|it| it.verb == verb.lemma)?;
+        let entry = self.words.lexicon.verbs.iter().find(|it| it.base == verb.lemma)?;
         let of_two = [self.words.word(at), self.words.word(at + 1)].join(" ");
         if let Some(frame) = entry.with.get(&of_two) {
             verb.frame = *frame;
@@ -667,7 +682,7 @@ impl Parser<'_> {
     /// "finished eating the soup", "had the sofa moved", "got eaten": the second verb tells.
     fn second_verb(&self, at: usize, clause: &mut Clause) -> Option<usize> {
         let verb = clause.verb.as_ref()?;
-        let entry = self.words.lexicon.verbs.iter().find(|it| it.verb == verb.lemma)?;
+        let entry = self.words.lexicon.verbs.iter().find(|it| it.base == verb.lemma)?;
         let gerund = self.words.has_form(at, &[Form::Gerund]) && entry.aspect && clause.objects.is_empty();
         let participle = self.words.has_form(at, &[Form::Participle]) && matches!(verb.frame, Frame::Have | Frame::Get);
         if !gerund && !participle {

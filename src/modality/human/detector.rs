@@ -48,7 +48,7 @@ impl HumanDetector {
             Some(correction)
                 if fresh
                     && !self.memory.text.is_empty()
-                    && !(correction.answer && !self.memory.done.is_empty()) =>
+                    && (!correction.answer || self.memory.done.is_empty()) =>
             {
                 self.corrected(desk, said, &correction);
             }
@@ -109,10 +109,9 @@ impl HumanDetector {
         for verdict in verdicts {
             match verdict {
                 Ok(claim) => {
-                    if let Some(id) = self.claim(desk, claim) {
-                        if statement.action == Action::Added {
-                            grounding.settle(statement.object.span, id);
-                        }
+                    let id = self.claim(desk, claim);
+                    if let Some(id) = id.filter(|_| statement.action == Action::Added) {
+                        grounding.settle(statement.object.span, id);
                     }
                 }
                 Err((claim, rejection)) => desk.reject(claim, rejection),
@@ -164,7 +163,7 @@ impl HumanDetector {
         let text = std::mem::take(&mut self.memory.text);
         if correction.object.is_some() {
             let undone = done.last().copied();
-            undone.into_iter().for_each(|done| self.take_back(desk, done, &rests_on));
+            undone.into_iter().for_each(|done| Self::take_back(desk, done, &rests_on));
         }
         let note = "a correction of what was said before";
         let reading = Reading { statements: vec![statement.clone()], note: note.to_owned() };
@@ -175,7 +174,7 @@ impl HumanDetector {
     }
 
     /// Claims that what was done before did not happen to this thing.
-    fn take_back(&mut self, desk: &mut Desk<'_>, done: Done, rests_on: &[EvidenceRef]) {
+    fn take_back(desk: &mut Desk<'_>, done: Done, rests_on: &[EvidenceRef]) {
         let object = node_ref(desk.world(), done.id);
         let room = done.before.map(|(room, _)| node_ref(desk.world(), room));
         let support = done.before.and_then(|(_, support)| support).map(|id| node_ref(desk.world(), id));

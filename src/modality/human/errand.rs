@@ -92,7 +92,7 @@ fn imperative(lexicon: &Lexicon, mut sentence: Sentence) -> Sentence {
         let form = lexicon.forms.get(&tokens[n].text).and_then(|of| of.iter().find(|it| it.form == super::lemma::Form::Gerund));
         let begins = n == 0 || matches!(tokens[n - 1].text.as_str(), "and" | "," | "then" | "by");
         if let Some(form) = form.filter(|_| begins) {
-            tokens[n].text.clone_from(&lexicon.verbs[form.verb].verb);
+            tokens[n].text.clone_from(&lexicon.verbs[form.verb].base);
         }
         let next_is_verb = tokens.get(n + 1).is_some_and(|next| lexicon.forms.get(&next.text).is_some_and(|of| of.iter().any(|it| it.form == super::lemma::Form::Base && lexicon.verbs[it.verb].frame != Frame::None)));
         if n > 0 && (tokens[n].is("to") || tokens[n].is("so")) && next_is_verb {
@@ -125,8 +125,13 @@ impl Reader<'_> {
         let objects = self.objects(clause);
         let strong = clause.places.iter().position(|place| place.role == Preposition::Goal(true));
         let puts = match frame {
-            Frame::Place | Frame::Store | Frame::Toss | Frame::Return | Frame::Have => true,
-            Frame::Move | Frame::Bring => true,
+            Frame::Place
+            | Frame::Store
+            | Frame::Toss
+            | Frame::Return
+            | Frame::Have
+            | Frame::Move
+            | Frame::Bring => true,
             Frame::Take | Frame::Get | Frame::Out | Frame::Seen | Frame::None | Frame::Make | Frame::Acquire => strong.is_some(),
             _ => false,
         };

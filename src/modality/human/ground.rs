@@ -83,7 +83,7 @@ pub struct Grounding<'a> {
     trail: Vec<Resolved>,
 }
 
-/// Why no claim can be made.
+/// Why no claim can be made; boxed, for it is large and rare.
 type Refusal = Box<Rejection>;
 
 /// Where it is now: a room and perhaps a support, or outside.
@@ -285,7 +285,7 @@ impl<'a> Grounding<'a> {
                 let same = ids.iter().all(|id| world.known(*id).map(|it| it.room) == room);
                 match room.filter(|_| same) {
                     Some(room) => Ok(Target::In { room, support: None }),
-                    None => Err(self.which(world, mention, ids)),
+                    None => Err(Self::which(world, mention, ids)),
                 }
             }
             Err(refusal) if !matches!(*refusal, Rejection::UnknownObject { .. }) => Err(refusal),
@@ -301,7 +301,7 @@ impl<'a> Grounding<'a> {
                 self.chose(role, mention, ids, &[only.id], only.closeness.words().to_owned());
                 Ok(Some(only.id))
             }
-            _ => Err(self.which(world, mention, ids)),
+            _ => Err(Self::which(world, mention, ids)),
         }
     }
 
@@ -459,30 +459,31 @@ impl<'a> Grounding<'a> {
                 Err(Box::new(Rejection::TooFew { wanted, said: n, known }))
             }
             (Quantity::One, [only]) => Ok((vec![*only], told.to_owned())),
-            (Quantity::Count(n), _) => self.elsewhere(world, ids, target).filter(|it| it.len() == n as usize)
+            (Quantity::Count(n), _) => Self::elsewhere(world, ids, target).filter(|it| it.len() == n as usize)
                 .map(|it| (it, ", as the others are there already".to_owned()))
-                .ok_or_else(|| self.which(world, mention, ids.to_vec())),
+                .ok_or_else(|| Self::which(world, mention, ids.to_vec())),
             (Quantity::One, _) => {
-                if let Some(one) = self.elsewhere(world, ids, target).filter(|it| it.len() == 1) {
+                if let Some(one) = Self::elsewhere(world, ids, target).filter(|it| it.len() == 1) {
                     return Ok((one, ", as the others are there already".to_owned()));
                 }
                 let recent: Vec<NodeId> = ids.iter().filter(|id| self.config.recent.contains(id)).copied().collect();
                 match recent.as_slice() {
                     [one] => Ok((vec![*one], ", the one spoken of last".to_owned())),
-                    _ => Err(self.which(world, mention, ids.to_vec())),
+                    _ => Err(Self::which(world, mention, ids.to_vec())),
                 }
             }
         }
     }
 
     /// Those that are not at the target yet.
-    fn elsewhere(&self, world: &World, ids: &[NodeId], target: Option<(NodeId, Option<NodeId>)>) -> Option<Vec<NodeId>> {
+    fn elsewhere(world: &World, ids: &[NodeId], target: Option<(NodeId, Option<NodeId>)>) -> Option<Vec<NodeId>> {
         let (room, support) = target?;
         let away: Vec<NodeId> = ids.iter().filter(|id| !is_at(world, **id, room, support)).copied().collect();
         (away.len() < ids.len()).then_some(away)
     }
 
-    fn which(&self, world: &World, mention: &Mention, candidates: Vec<NodeId>) -> Refusal {
+    #[allow(clippy::unnecessary_box_returns)] // every refusal is boxed
+    fn which(world: &World, mention: &Mention, candidates: Vec<NodeId>) -> Refusal {
         let shown: Vec<String> = candidates.iter().take(4).map(|id| format!("the one {} ({id})", place_words(world, *id))).collect();
         let more = if candidates.len() > 4 { format!(", or one of {} more", candidates.len() - 4) } else { String::new() };
         let question = format!("Which {} do you mean: {}{more}?", mention.noun, shown.join(", or "));

@@ -67,7 +67,8 @@ pub(super) enum Frame {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Verb {
-    pub verb: String,
+    #[serde(rename = "verb")]
+    pub base: String,
     past: Option<String>,
     part: Option<String>,
     ing: Option<String>,
@@ -188,7 +189,7 @@ impl Lexicon {
 fn forms(verbs: &[Verb]) -> BTreeMap<String, Vec<VerbForm>> {
     let mut forms: BTreeMap<String, Vec<VerbForm>> = BTreeMap::new();
     for (verb, entry) in verbs.iter().enumerate() {
-        let base = entry.verb.as_str();
+        let base = entry.base.as_str();
         let past = entry.past.clone().unwrap_or_else(|| lemma::past(base));
         let part = entry.part.clone().unwrap_or_else(|| past.clone());
         let ing = entry.ing.clone().unwrap_or_else(|| lemma::gerund(base));
@@ -203,11 +204,11 @@ fn forms(verbs: &[Verb]) -> BTreeMap<String, Vec<VerbForm>> {
             forms.entry(word).or_default().push(VerbForm { verb, form });
         }
     }
-    if let Some(verb) = verbs.iter().position(|it| it.verb == "have") {
+    if let Some(verb) = verbs.iter().position(|it| it.base == "have") {
         forms.entry("has".to_owned()).or_default().push(VerbForm { verb, form: Form::Present });
     }
     for (word, regular) in [("burned", "burn"), ("broke", "break"), ("dreamed", "dream"), ("hanged", "hang")] {
-        if let Some(verb) = verbs.iter().position(|it| it.verb == regular) {
+        if let Some(verb) = verbs.iter().position(|it| it.base == regular) {
             for form in [Form::Past, Form::Participle] {
                 forms.entry(word.to_owned()).or_default().push(VerbForm { verb, form });
             }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::lemma::singular;
 
-/// A name as words: lower case, singular, whatever the spelling ("DiningTable|1", "dining_tables").
+/// A name as words: lower case, singular, whatever the spelling: `DiningTable|1`, `dining_tables`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Name {
     /// The words.

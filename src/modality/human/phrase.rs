@@ -6,6 +6,8 @@ use super::reading::{Mention, Quantity};
 use super::token::Token;
 
 /// A noun phrase and what the grammar needs to know of it.
+// What a grammar notes of a phrase are yes or no each.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Phrase {
     pub mention: Mention,
@@ -356,6 +358,14 @@ impl<'a> Words<'a> {
         let words = &self.lexicon.words;
         let pronoun = matches!(self.word(at), "that" | "which" | "who");
         let subject = |n: usize| self.is_in(&words.subjects, n) && self.word(n) != "it";
+        // "the mug, which was on the counter, …".
+        if self.word(at) == "," && matches!(self.word(at + 1), "which" | "who") {
+            let end = self.relative(phrase, at + 1);
+            return match end > at + 1 && self.word(end) == "," {
+                true => end + 1,
+                false => at,
+            };
+        }
         let begins = at + usize::from(pronoun);
         if pronoun && self.is_in(&words.be, begins) {
             let mut next = begins + 1;

@@ -224,7 +224,8 @@ fn the_lexicon_follows_its_schemas() {
         let schema: serde_json::Value = serde_json::from_str(schema).unwrap();
         let keys = |value: &serde_json::Value| value.as_object().unwrap().keys().cloned().collect::<Vec<_>>();
         let (mut found, mut known) = (keys(&file), keys(&schema["properties"]));
-        (found.sort(), known.sort());
+        found.sort();
+        known.sort();
         assert_eq!(found, known);
     }
     assert!(lexicon().verbs.len() > 150 && lexicon().forms.len() > 500);

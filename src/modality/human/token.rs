@@ -96,7 +96,7 @@ fn word_end(text: &str, at: usize) -> usize {
         let digits = c == '.' && text[..end].ends_with(|c: char| c.is_ascii_digit());
         let joins = is_apostrophe(c) || c == '-' || digits;
         let goes_on = next.is_some_and(|n| is_word_char(n) && (!digits || n.is_ascii_digit()));
-        if !is_word_char(c) && !(joins && goes_on) {
+        if !(is_word_char(c) || joins && goes_on) {
             break;
         }
         end += c.len_utf8();

@@ -78,10 +78,10 @@ fn truth(command: &Value) -> (Option<u32>, Option<u32>) {
             let head = element["head"].as_str().unwrap_or_default();
             match element["role"].as_str() {
                 Some("Theme") if theme.is_none() && head != "it" && head != "them" => {
-                    theme = entity(command, element)
+                    theme = entity(command, element);
                 }
                 Some("Goal") => {
-                    goal = entity(command, element).filter(|_| head != "me" && head != "here")
+                    goal = entity(command, element).filter(|_| head != "me" && head != "here");
                 }
                 _ => {}
             }

@@ -80,7 +80,7 @@ impl Reporter<'_> {
         let action = if added || old.action == new.action { old.action } else { new.action };
         let action = if refines { action } else if added { Action::Added } else { new.action };
         let action = if new.action == Action::Removed { new.action } else { action };
-        *old = Statement { when, action, ..new.clone() };
+        *old = Statement { action, when, ..new.clone() };
         old.object.definite = definite;
         old.object.at = at;
         if let Some(room) = room {

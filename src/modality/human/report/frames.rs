@@ -13,7 +13,7 @@ impl Reporter<'_> {
         let received = verb.lemma == "give" && clause.objects.first().is_some_and(to_speaker);
         let speaker = matches!(&clause.subject, Subject::Pronoun(who) if matches!(who.as_str(), "i" | "we"));
         if received || (verb.lemma == "borrow" && speaker && !things.iter().all(|it| it.0.definite)) {
-            return self.acquire(clause, things, Target::default(), false);
+            return self.acquire(clause, things, &Target::default(), false);
         }
         let used_up = |it: &&(Mention, Phrase)| self.is_consumable(&it.0);
         if matches!(verb.lemma.as_str(), "finish" | "have") {
@@ -29,7 +29,7 @@ impl Reporter<'_> {
         self.lexicon.words.consumables.contains(last)
     }
 
-    pub(super) fn toss(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: Target) {
+    pub(super) fn toss(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: &Target) {
         let words = &self.lexicon.words;
         let to_waste = target.support.as_ref().is_some_and(|it| words.waste.contains(&it.noun) || words.waste.contains(it.noun.rsplit(' ').next().unwrap_or_default()));
         let nowhere = target.is_empty() && verb.lemma != "throw" && clause.places.is_empty();
@@ -41,7 +41,7 @@ impl Reporter<'_> {
         }
     }
 
-    pub(super) fn take(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: Target) {
+    pub(super) fn take(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: &Target) {
         let light = |it: &(Mention, Phrase)| {
             (!it.0.definite
                 && self.lexicon.words.light_objects.contains(it.0.noun.rsplit(' ').next().unwrap_or_default())) || (it.1.bare && it.0.noun == "place")
@@ -70,9 +70,9 @@ impl Reporter<'_> {
         self.drafts[from..].iter_mut().for_each(|draft| draft.open = true);
     }
 
-    pub(super) fn placed(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target) {
-        if is_own_place(&target) {
-            return self.put_back(clause, things, Target::default());
+    pub(super) fn placed(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: &Target) {
+        if is_own_place(target) {
+            return self.put_back(clause, things, &Target::default());
         }
         if target.is_empty() {
             return self.note("it does not say where it was put");
@@ -82,37 +82,37 @@ impl Reporter<'_> {
             let action = if bare { Action::Moved } else { Action::Added };
             let definite = !phrase.novel;
             let object = Mention { definite, ..self.with_hints(clause, mention, false) };
-            self.push(clause, action, object, &target, 0.9);
+            self.push(clause, action, object, target, 0.9);
         }
     }
 
-    pub(super) fn moved(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target) {
-        if is_own_place(&target) {
-            return self.put_back(clause, things, Target::default());
+    pub(super) fn moved(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: &Target) {
+        if is_own_place(target) {
+            return self.put_back(clause, things, &Target::default());
         }
         for (mention, phrase) in things {
             let novel = phrase.novel && !target.is_empty();
             let action = if novel { Action::Added } else { Action::Moved };
             let object = Mention { definite: !novel, ..self.with_hints(clause, mention, false) };
             let from = self.drafts.len();
-            self.push(clause, action, object, &target, 0.9);
+            self.push(clause, action, object, target, 0.9);
             if target.is_empty() {
                 self.drafts[from..].iter_mut().for_each(|draft| draft.open = true);
             }
         }
     }
 
-    pub(super) fn bring(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target) {
+    pub(super) fn bring(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: &Target) {
         for (mention, phrase) in things {
             let definite = mention.definite && !phrase.novel;
             let object = Mention { definite, ..self.with_hints(clause, mention, false) };
             let from = self.drafts.len();
-            self.push(clause, Action::Added, object, &target, 0.9);
+            self.push(clause, Action::Added, object, target, 0.9);
             self.mark(from, target.is_empty(), definite || (phrase.bare && !phrase.plural));
         }
     }
 
-    pub(super) fn get(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: Target) {
+    pub(super) fn get(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)], target: &Target) {
         let sourced = clause.places.iter().any(|place| place.role == Preposition::Source);
         let definite = things.iter().any(|(mention, phrase)| mention.definite && !phrase.novel);
         if definite {
@@ -122,17 +122,17 @@ impl Reporter<'_> {
         self.acquire(clause, things, target, !novel || sourced);
     }
 
-    pub(super) fn acquire(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target, needs_place: bool) {
+    pub(super) fn acquire(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: &Target, needs_place: bool) {
         for (mention, _) in things {
             let at = Vec::new();
             let object = Mention { definite: false, at, ..mention.clone() };
             let from = self.drafts.len();
-            self.push(clause, Action::Added, object, &target, 0.9);
+            self.push(clause, Action::Added, object, target, 0.9);
             self.mark(from, target.is_empty(), needs_place);
         }
     }
 
-    pub(super) fn put_back(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target) {
+    pub(super) fn put_back(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: &Target) {
         if !target.is_empty() {
             return self.placed(clause, things, target);
         }
@@ -145,6 +145,10 @@ impl Reporter<'_> {
 
     pub(super) fn swap(&mut self, clause: &Clause, verb: &Verb, things: &[(Mention, Phrase)]) {
         let mut both: Vec<Mention> = things.iter().map(|it| it.0.clone()).collect();
+        if both.iter().all(|it| it.noun == "place") {
+            // "the lamp and the vase have switched places".
+            both = self.subject_things(clause).into_iter().map(|it| it.0).collect();
+        }
         let with = clause.places.iter().find(|place| matches!(place.preposition.as_str(), "with" | "for"));
         if let Some(place) = with {
             both.extend(self.things(&place.things).into_iter().map(|it| it.0));
@@ -187,16 +191,16 @@ impl Reporter<'_> {
         self.drafts[from..].iter_mut().for_each(|draft| draft.statement.confidence *= 0.9);
     }
 
-    pub(super) fn have(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: Target) {
+    pub(super) fn have(&mut self, clause: &Clause, things: &[(Mention, Phrase)], target: &Target) {
         if clause.past {
             // "I had the banana": for breakfast.
             let eaten: Vec<_> = things.iter().filter(|it| it.0.definite && self.is_consumable(&it.0)).cloned().collect();
             return self.gone(&Clause { places: Vec::new(), ..clause.clone() }, &eaten, 0.7);
         }
-        if self.is_used_up(clause) || things.iter().any(|(_, phrase)| phrase.negative && phrase.more) {
+        if Self::is_used_up(clause) || things.iter().any(|(_, phrase)| phrase.negative && phrase.more) {
             return self.gone(clause, things, 0.9);
         }
-        let mut target = target;
+        let mut target = target.clone();
         if let (Subject::Things(subject), true) = (&clause.subject, target.is_empty()) {
             target.room = subject.first().map(|it| it.mention.clone()).filter(|it| self.is_room(it));
         }

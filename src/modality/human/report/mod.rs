@@ -189,16 +189,13 @@ impl Reporter<'_> {
         }
         let mut told = false;
         for clause in &clauses {
-            told = match self.unreal(clause, told) {
-                Some(why) => {
-                    self.note(why);
-                    false
-                }
-                None => {
-                    self.clause(clause);
-                    true
-                }
-            };
+            let why = self.unreal(clause, told);
+            told = why.is_none();
+            if let Some(why) = why {
+                self.note(why);
+            } else {
+                self.clause(clause);
+            }
             self.remember(clause);
         }
     }
@@ -216,7 +213,7 @@ impl Reporter<'_> {
             return None;
         }
         match clause.unreal {
-            Some(Unreal::Negated) if !clause.no_longer && !self.is_used_up(clause) => return Some("a negation"),
+            Some(Unreal::Negated) if !clause.no_longer && !Self::is_used_up(clause) => return Some("a negation"),
             Some(Unreal::Possible) => return Some("a wish, a plan or a guess"),
             Some(Unreal::Habit) => return Some("a habit"),
             Some(Unreal::Reported) => return Some("what somebody else says or thinks"),
@@ -226,16 +223,16 @@ impl Reporter<'_> {
         if verb.frame == Frame::Wish {
             return Some("a wish or a plan");
         }
-        self.tense(clause, verb, told_before)
+        Self::tense(clause, verb, told_before)
     }
 
     /// "we don't have any milk left".
-    fn is_used_up(&self, clause: &Clause) -> bool {
+    fn is_used_up(clause: &Clause) -> bool {
         let left = clause.state.iter().any(|word| word == "left" || word == "more");
         left && (clause.subject == Subject::There || clause.verb.as_ref().is_some_and(|verb| verb.frame == Frame::Have))
     }
 
-    fn tense(&self, clause: &Clause, verb: &Verb, told_before: bool) -> Option<&'static str> {
+    fn tense(clause: &Clause, verb: &Verb, told_before: bool) -> Option<&'static str> {
         if (verb.frame == Frame::Have && !clause.past) || verb.passive && !matches!(verb.frame, Frame::None) {
             return None;
         }
@@ -259,10 +256,15 @@ impl Reporter<'_> {
             Subject::Things(things) => things.as_slice(),
             _ => &[],
         };
-        let second = if clause.second.is_empty() { &clause.objects } else { &clause.second };
-        let subject = if second.is_empty() { subject } else { &[] };
-        for things in [second.as_slice(), subject] {
-            let known = things.iter().filter(|it| !it.pronoun && it.mention.noun != "one" && !self.is_being(&it.mention));
+        let objects = if clause.second.is_empty() { &clause.objects } else { &clause.second };
+        let pronoun = objects.iter().any(|it| it.pronoun);
+        let subject = if pronoun { &[] } else { subject };
+        for things in [objects.as_slice(), subject] {
+            let known = things.iter().filter(|it| {
+                // "the milk went bad": nothing to come back to.
+                let vague = it.bare && !it.plural && !self.knows(&it.mention);
+                !it.pronoun && !vague && it.mention.noun != "one" && !self.is_being(&it.mention)
+            });
             let mentions: Vec<Mention> = known.map(|it| it.mention.clone()).collect();
             if !mentions.is_empty() {
                 self.antecedents = mentions;
@@ -332,7 +334,7 @@ impl Reporter<'_> {
             things = self.things(&clause.second);
         }
         if verb.stative && clause.objects.is_empty() {
-            let now = !clause.past || verb.progressive && !clause.past;
+            let now = !clause.past;
             if now {
                 self.is_at(clause, &self.subject_things(clause));
             }
@@ -349,19 +351,19 @@ impl Reporter<'_> {
         }
         match verb.frame {
             Frame::Gone | Frame::Spent => self.gone_verb(clause, verb, things),
-            Frame::Toss => self.toss(clause, verb, things, target),
-            Frame::Take | Frame::Out => self.take(clause, verb, things, target),
-            Frame::Place | Frame::Store => self.placed(clause, things, target),
-            Frame::Move => self.moved(clause, things, target),
-            Frame::Bring => self.bring(clause, things, target),
-            Frame::Get => self.get(clause, verb, things, target),
-            Frame::Acquire => self.acquire(clause, things, target, false),
-            Frame::Make | Frame::Arrive => self.acquire(clause, things, target, true),
-            Frame::Return => self.put_back(clause, things, target),
+            Frame::Toss => self.toss(clause, verb, things, &target),
+            Frame::Take | Frame::Out => self.take(clause, verb, things, &target),
+            Frame::Place | Frame::Store => self.placed(clause, things, &target),
+            Frame::Move => self.moved(clause, things, &target),
+            Frame::Bring => self.bring(clause, things, &target),
+            Frame::Get => self.get(clause, verb, things, &target),
+            Frame::Acquire => self.acquire(clause, things, &target, false),
+            Frame::Make | Frame::Arrive => self.acquire(clause, things, &target, true),
+            Frame::Return => self.put_back(clause, things, &target),
             Frame::Swap => self.swap(clause, verb, things),
             Frame::Replace => self.replace(clause, verb, things),
             Frame::Seen => self.seen(clause, things),
-            Frame::Have => self.have(clause, things, target),
+            Frame::Have => self.have(clause, things, &target),
             Frame::Report | Frame::Belief | Frame::Wish | Frame::Mean | Frame::None => {}
         }
     }

@@ -23,9 +23,12 @@ impl Reporter<'_> {
             return self.gone(&Clause { places: Vec::new(), ..clause.clone() }, &used, 0.9);
         }
         if gone || clause.no_longer {
+            let from = self.drafts.len();
             self.gone(clause, &things, 0.9);
+            // "It isn't on the table any more: it is on the shelf."
+            self.drafts[from..].iter_mut().for_each(|draft| draft.open = true);
         } else if clause.places.is_empty() && clause.state.iter().any(|word| word == "back") {
-            self.put_back(clause, &things, Target::default());
+            self.put_back(clause, &things, &Target::default());
         } else {
             self.is_at(clause, &things);
         }
@@ -38,7 +41,7 @@ impl Reporter<'_> {
         let things = self.things(&clause.objects);
         let negative = things.iter().any(|(_, phrase)| phrase.negative) || clause.unreal == Some(Unreal::Negated);
         if negative {
-            let used_up = self.is_used_up(clause) || things.iter().any(|(_, phrase)| phrase.more) || clause.no_longer;
+            let used_up = Self::is_used_up(clause) || things.iter().any(|(_, phrase)| phrase.more) || clause.no_longer;
             return if used_up { self.gone(clause, &things, 0.9) } else { self.note("a negation") };
         }
         let lists = &self.lexicon.words;
