@@ -18,6 +18,7 @@ use std::collections::BTreeMap;
 
 use super::find::{Candidate, Finder, LabelSimilarity, closest};
 use super::lexicon::lexicon;
+use super::names::Closeness;
 use super::reading::{Mention, Quantity, Reading, Statement};
 use crate::change::{Action, Claim, EvidenceRef, Modality, NodeRef, Occurred, Rejection, World};
 use crate::graph::{Label, NodeId, Object};
@@ -335,8 +336,24 @@ impl<'a> Grounding<'a> {
                 self.say("support", mention, "its support is not known");
                 Ok(Target::In { room, support: None })
             }
-            (Err(refusal), None) if !matches!(*refusal, Rejection::UnknownObject { .. }) => Err(refusal),
+            (Err(refusal), None) if !matches!(*refusal, Rejection::UnknownObject { .. }) => {
+                self.one_of_several(world, mention, refusal)
+            }
             (_, None) => self.support_as_room(world, mention),
+        }
+    }
+
+    /// One of several supports of one room: the room is known, whichever it is.
+    fn one_of_several(&mut self, world: &World, mention: &Mention, refusal: Refusal) -> Result<Target, Refusal> {
+        let Rejection::WhichOne { candidates, .. } = &*refusal else { return Err(refusal) };
+        let room_of = |id: &NodeId| world.known(*id).map(|it| it.room);
+        let room = candidates.first().and_then(room_of);
+        match room.filter(|_| candidates.iter().all(|id| room_of(id) == room)) {
+            Some(room) => {
+                self.say("support", mention, "one of several in the room: which is not known");
+                Ok(Target::In { room, support: None })
+            }
+            None => Err(refusal),
         }
     }
 
@@ -407,8 +424,10 @@ impl<'a> Grounding<'a> {
             self.chose("object", mention, Vec::new(), &[], "nothing of that name is known".to_owned());
             return Err(Box::new(Rejection::UnknownObject { wanted, where_: String::new() }));
         }
+        // "the living room lamp" is no lamp of the bedroom; a "kitchen table" may be anywhere.
+        let named_by_room = fitting.iter().all(|it| matches!(it.closeness, Closeness::Compound(_)));
         let in_name = self.room_in_name(world, mention).map(Hint::Room);
-        for (hint, strict) in hints.iter().map(|it| (it, true)).chain(in_name.iter().map(|it| (it, false))) {
+        for (hint, strict) in hints.iter().map(|it| (it, true)).chain(in_name.iter().map(|it| (it, named_by_room))) {
             let place = self.hint(world, hint)?;
             let narrowed: Vec<Candidate> = fitting.iter().filter(|it| place.holds(world, it.id)).copied().collect();
             let loosely: Vec<Candidate> = fitting.iter().filter(|it| place.may_hold(world, it.id)).copied().collect();

@@ -270,6 +270,14 @@ impl<'a> Words<'a> {
     fn name(&self, from: usize, to: usize, phrase: &mut Phrase) {
         let words = &self.lexicon.words;
         let mut first = from;
+        if matches!(self.word(to - 1), "one" | "ones") {
+            // "a bigger one".
+            let adjectives = (from..to - 1).map(|n| self.word(n).to_owned());
+            phrase.mention.adjectives.extend(adjectives.filter(|word| word != ","));
+            phrase.novel |= phrase.mention.adjectives.iter().any(|it| words.novelty.contains(it));
+            phrase.mention.definite &= !phrase.novel;
+            first = to - 1;
+        }
         while first + 1 < to && (self.is_in(&words.adjectives, first) || self.is_past_adjective(first) || self.word(first) == ",") {
             let word = self.word(first);
             if word == "," {

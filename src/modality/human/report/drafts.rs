@@ -4,7 +4,7 @@ use super::{Draft, MAX_STATEMENTS, Reporter, Target};
 use crate::modality::human::clause::Clause;
 use crate::modality::human::lexicon::Preposition;
 use crate::modality::human::phrase::Phrase;
-use crate::modality::human::reading::{Mention, Statement, When};
+use crate::modality::human::reading::{Mention, Quantity, Statement, When};
 use crate::change::Action;
 
 impl Reporter<'_> {
@@ -14,7 +14,9 @@ impl Reporter<'_> {
         let strong = clause.places.iter().position(|place| place.role == Preposition::Goal(true));
         for (n, place) in clause.places.iter().enumerate() {
             let source = place.role == Preposition::Source;
-            let was_there = matches!(place.role, Preposition::Goal(false) | Preposition::Near)
+            let sourced = clause.places.iter().any(|place| place.role == Preposition::Source);
+            let was_there = !(sourced && place.role == Preposition::Near)
+                && matches!(place.role, Preposition::Goal(false) | Preposition::Near)
                 && (removal || strong.is_some_and(|strong| n < strong));
             if source || was_there {
                 let there = place.things.iter().flat_map(|it| self.resolve(it));
@@ -25,8 +27,10 @@ impl Reporter<'_> {
     }
 
     pub(super) fn gone(&mut self, clause: &Clause, things: &[(Mention, Phrase)], confidence: f64) {
-        for (mention, _) in things {
-            let object = Mention { definite: true, ..self.with_hints(clause, mention, true) };
+        for (mention, phrase) in things {
+            // "no apples left": none of them.
+            let quantity = if phrase.negative { Quantity::All } else { mention.quantity };
+            let object = Mention { definite: true, quantity, ..self.with_hints(clause, mention, true) };
             self.push(clause, Action::Removed, object, &Target::default(), confidence);
         }
     }

@@ -333,6 +333,10 @@ impl Reporter<'_> {
         if !clause.second.is_empty() && !verb.passive {
             things = self.things(&clause.second);
         }
+        if verb.lemma == "end" && clause.objects.is_empty() {
+            // "the newspaper ended up in the bathroom".
+            return self.is_at(clause, &self.subject_things(clause));
+        }
         if verb.stative && clause.objects.is_empty() {
             let now = !clause.past;
             if now {
