@@ -4,6 +4,7 @@
 mod alfred;
 mod corpus;
 mod huric;
+mod tasks;
 
 use std::collections::BTreeMap;
 

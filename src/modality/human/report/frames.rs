@@ -150,15 +150,16 @@ impl Reporter<'_> {
             both = self.subject_things(clause).into_iter().map(|it| it.0).collect();
         }
         let with = clause.places.iter().find(|place| matches!(place.preposition.as_str(), "with" | "for"));
+        let new = |it: &Phrase| !it.mention.definite && !it.pronoun;
+        if with.is_some_and(|place| place.things.iter().any(new)) {
+            // "I swapped the lamp for a new one".
+            return self.replace(clause, verb, things);
+        }
         if let Some(place) = with {
             both.extend(self.things(&place.things).into_iter().map(|it| it.0));
         }
         let lasting = |it: &Mention| Mention { definite: true, ..it.clone() };
         if let [a, b] = both.as_slice() {
-            if !b.definite && with.is_some() {
-                // "I swapped the lamp for a new one".
-                return self.replace(clause, verb, things);
-            }
             for (object, place) in [(a, b), (b, a)] {
                 let room = Some(Mention { its_place: true, ..lasting(place) });
                 self.push(clause, Action::Moved, lasting(object), &Target { support: None, room }, 0.9);
