@@ -17,7 +17,8 @@ struct Row {
 
 fn rows() -> Option<Vec<Row>> {
     let text = shared("alfred/pick_and_place.csv")?;
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    // Some instructions have commas that are not quoted.
+    let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(text.as_bytes());
     let headers = reader.headers().unwrap().clone();
     let column = |name| headers.iter().position(|header| header == name).unwrap();
     let columns = [column("object"), column("receptacle"), column("instruction")];
