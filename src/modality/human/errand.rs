@@ -235,10 +235,12 @@ impl Reader<'_> {
             }
             return;
         }
+        // Where the robot was sent holds for what it is to take there.
+        let at = std::mem::take(&mut self.at);
         for phrase in objects {
             let mut source = source.clone();
             source.extend(phrase.mention.at.clone());
-            source.extend(self.at.clone());
+            source.extend(at.clone());
             self.errands.push(Errand { object: Some(phrase.mention), source, target: target.clone() });
         }
         self.done = target.is_some();
