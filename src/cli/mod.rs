@@ -22,6 +22,8 @@ mod reprocess;
 mod simulate;
 mod snapshot;
 mod source;
+mod tell;
+mod tell_explain;
 mod verify;
 mod why;
 
@@ -76,6 +78,7 @@ enum Command {
     House(house::House),
     Plan(plan::Plan),
     Render(render::Render),
+    Tell(tell::Tell),
     Demo(demo::Demo),
 }
 
@@ -134,6 +137,7 @@ impl Cli {
             Command::House(args) => house::run(&args, out),
             Command::Plan(args) => plan::run(&args, out),
             Command::Render(args) => render::run(&args, out),
+            Command::Tell(args) => tell::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

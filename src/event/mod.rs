@@ -8,7 +8,7 @@
 mod inputs;
 mod topic;
 
-pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Status, Task, TaskStatus, Utterance};
+pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Span, Status, Task, TaskStatus, Utterance};
 pub use topic::{Role, Topic};
 
 use crate::change::{ChangeRecord, EvidenceRef, Transaction};

@@ -18,6 +18,7 @@ use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
+use crate::modality::human::{HumanDetector, Said};
 use crate::time::Stamp;
 
 /// The world, the detectors with their memory, and the counters of the log.
@@ -26,6 +27,7 @@ pub struct Updater {
     config: Config,
     world: World,
     action: ActionDetector,
+    human: HumanDetector,
     /// Number of the last event.
     order: u64,
     /// Number of the last change.
@@ -61,6 +63,7 @@ impl Updater {
             config,
             world: World::default(),
             action: ActionDetector::default(),
+            human: HumanDetector::default(),
             order: 0,
             changes: 0,
             at: Stamp::EPOCH,
@@ -140,17 +143,30 @@ impl Updater {
         }
         let plan = self.config.plan();
         let mut desk = Desk::new(&mut self.world, &plan, self.at, self.changes);
-        match (self.config.detectors, input) {
-            (Detectors::Truth, Event::TrueChange(change)) => {
-                let topic = input.topic().name();
-                let evidence = vec![EvidenceRef { topic, order }];
-                // Recorded either way; the truth never contradicts itself.
-                let _ = desk.claim(Claim { evidence, ..change.claim.clone() });
+        match self.config.detectors {
+            Detectors::All => {}
+            Detectors::None => return Vec::new(),
+            Detectors::Truth => return really_happened(desk, order, input),
+        }
+        match input {
+            Event::Utterance(said) => {
+                let said = Said { order, text: &said.text, similarity: None };
+                self.human.utterance(&mut desk, &said);
             }
-            (Detectors::All, Event::Task(task)) => self.action.task(&mut desk, order, task),
-            (Detectors::All, Event::TaskStatus(status)) => self.action.task_status(&mut desk, order, status),
+            Event::Task(task) => self.action.task(&mut desk, order, task),
+            Event::TaskStatus(status) => self.action.task_status(&mut desk, order, status),
             _ => {}
         }
         desk.into_events()
     }
+}
+
+/// Carries out what a truth file tells.
+fn really_happened(mut desk: Desk<'_>, order: u64, input: &Event) -> Vec<Event> {
+    if let Event::TrueChange(change) = input {
+        let evidence = vec![EvidenceRef { topic: input.topic().name(), order }];
+        // Recorded either way; the truth never contradicts itself.
+        let _ = desk.claim(Claim { evidence, ..change.claim.clone() });
+    }
+    desk.into_events()
 }

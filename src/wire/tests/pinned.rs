@@ -20,14 +20,14 @@ fn the_embedded_contracts_change_only_on_purpose() {
             format!("{} {} {}", it.name, it.data.len(), &StateHash::of(it.data).to_string()[..16])
         })
         .collect();
-    insta::assert_snapshot!(lines.join("\n"), @r"
+    insta::assert_snapshot!(lines.join("\n"), @"
     scenefold.v1.GraphState 1482 63ec19f97de315f6
     scenefold.v1.Utterance 113 8bab71bb3200e75b
     scenefold.v1.Task 1368 5ff4490167c50655
     scenefold.v1.TaskStatus 1505 6d358798e64cc9df
     scenefold.v1.Tick 57 3cdfcb13170a4b0f
     scenefold.v1.ChangeRecord 2215 50773ac630fb7f97
-    scenefold.v1.Interpretation 1392 7e22aaf4aa066420
+    scenefold.v1.Interpretation 1623 b96928d09f4d58ce
     scenefold.v1.ChangeRecord 2215 50773ac630fb7f97
     scenefold.v1.Transaction 2694 360e281e76a343ce
     scenefold.v1.Checkpoint 320 98470128ec0b2744

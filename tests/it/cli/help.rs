@@ -23,6 +23,7 @@ const COMMANDS: &[&str] = &[
     "house",
     "plan",
     "render",
+    "tell",
     "demo",
 ];
 

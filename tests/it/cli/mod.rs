@@ -8,6 +8,7 @@ mod ingest;
 mod json;
 mod render;
 mod streams;
+mod tell;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
