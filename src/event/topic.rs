@@ -31,6 +31,8 @@ pub enum Topic {
     TaskStatus,
     /// `/clock`
     Clock,
+    /// `/model/language`
+    Language,
     /// `/evidence/interpretation`
     Interpretation,
     /// `/change`
@@ -45,12 +47,13 @@ pub enum Topic {
 
 impl Topic {
     /// The topics with schemas of our own.
-    pub const OWN: [Self; 9] = [
+    pub const OWN: [Self; 10] = [
         Self::InitialGraph,
         Self::Utterance,
         Self::Task,
         Self::TaskStatus,
         Self::Clock,
+        Self::Language,
         Self::Interpretation,
         Self::Change,
         Self::Primitive,
@@ -71,6 +74,7 @@ impl Topic {
             Self::Task => "/robot/task",
             Self::TaskStatus => "/robot/task_status",
             Self::Clock => "/clock",
+            Self::Language => "/model/language",
             Self::Interpretation => "/evidence/interpretation",
             Self::Change => "/change",
             Self::Primitive => "/primitive",
@@ -85,6 +89,7 @@ impl Topic {
             Self::InitialGraph | Self::Utterance | Self::Task | Self::TaskStatus | Self::Clock => {
                 Role::Input
             }
+            Self::Language => Role::Model,
             Self::Interpretation | Self::Change | Self::Primitive => Role::Derived,
             Self::Checkpoint => Role::Cache,
             Self::Sensor(name) if name.starts_with("/model/") => Role::Model,
