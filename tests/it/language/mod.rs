@@ -1,0 +1,5 @@
+//! Language models: how a server is asked, what is recorded of it, what becomes of what it says.
+
+mod faults;
+mod recorded;
+mod server;
