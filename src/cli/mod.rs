@@ -10,6 +10,7 @@ mod export;
 mod import;
 mod info;
 mod ingest;
+mod language;
 mod log;
 mod output;
 mod progress;

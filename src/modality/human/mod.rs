@@ -6,7 +6,7 @@ mod model_nearest;
 mod model_reply;
 mod model_request;
 #[cfg(test)]
-mod model_tests;
+mod tests_model;
 mod reading;
 
 pub use model::{LanguageModel, LanguageRequest, NearestQuestion, Question};

@@ -1,5 +1,6 @@
 //! Language models: how a server is asked, what is recorded of it, what becomes of what it says.
 
 mod faults;
+mod program;
 mod recorded;
 mod server;

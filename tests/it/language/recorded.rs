@@ -35,7 +35,7 @@ impl LanguageModel for Parrot {
     }
 }
 
-pub fn server_config() -> Config {
+fn server_config() -> Config {
     let mut config = Config::default();
     config.language = Language::Server;
     config
@@ -65,7 +65,7 @@ fn record(path: &Path, answers: &[Result<String, String>]) -> Vec<Logged> {
     all
 }
 
-fn moved() -> String {
+pub fn moved() -> String {
     let named = |words: &str, name: &str| {
         format!(r#"{{"words":"{words}","name":"{name}","adjectives":[],"id":null,"count":1}}"#)
     };
