@@ -15,6 +15,8 @@
 //! made here, and types for an API of which servers on one's own machine speak dialects.
 
 pub mod chat;
+#[cfg(feature = "embeddings")]
+pub mod embed;
 
 use crate::event::LanguageReply;
 use crate::modality::human::{LanguageModel, LanguageRequest, Question};

@@ -31,9 +31,10 @@ impl Endpoint {
     /// ```
     pub fn new(base: &str) -> Result<Self, EndpointError> {
         const PATH: &str = "/chat/completions";
-        let base = base.trim().trim_end_matches('/');
+        let base = base.trim();
         let rest = base.strip_prefix("https://").or_else(|| base.strip_prefix("http://"));
         let rest = rest.ok_or(EndpointError::Scheme)?;
+        let base = base.trim_end_matches('/');
         if rest.contains(['@', '?', '#']) {
             return Err(EndpointError::Secret);
         }
