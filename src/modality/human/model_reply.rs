@@ -16,7 +16,7 @@ use crate::graph::{Label, NodeId};
 /// Changes that one sentence may report.
 pub const MAX_CHANGES: usize = 16;
 const MAX_ADJECTIVES: usize = 8;
-const MAX_COUNT: u32 = 100;
+const MAX_COUNT: i64 = 100;
 /// A hundred years.
 const MAX_HOURS: f64 = 24.0 * 366.0 * 100.0;
 const S_PER_HOUR: f64 = 3600.0;
@@ -77,7 +77,7 @@ struct Named {
     name: String,
     adjectives: Vec<String>,
     id: Option<String>,
-    count: u32,
+    count: i64,
 }
 
 #[derive(Deserialize)]
@@ -183,8 +183,8 @@ fn mention(sentence: &str, named: &Named) -> Result<Mention, Problem> {
     let quantity = match named.count {
         0 => Quantity::All,
         1 => Quantity::One,
-        n @ 2..=MAX_COUNT => Quantity::Count(n),
-        n => return wrong("count", format!("{n} is more than {MAX_COUNT}")),
+        n @ 2..=MAX_COUNT => Quantity::Count(n as u32),
+        n => return wrong("count", format!("{n} is not between 0 and {MAX_COUNT}")),
     };
     let adjectives = named.adjectives.iter().map(|word| word.trim().to_lowercase()).collect();
     let (id, noun) = (named.id.clone(), name.to_owned());

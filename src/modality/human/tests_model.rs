@@ -94,7 +94,8 @@ fn what_is_wrong_with_an_answer_is_named() {
     refused(&with("/object/name", json!("m".repeat(201))), "changes[0].object.name");
     refused(&with("/object/id", json!("mug")), "changes[0].object.id");
     refused(&with("/object/id", json!(17)), "schema");
-    refused(&with("/object/count", json!(-1)), "schema");
+    refused(&with("/object/count", json!(-1)), "changes[0].object.count");
+    refused(&with("/object/count", json!(1.5)), "schema");
     refused(&with("/object/count", json!(101)), "changes[0].object.count");
     refused(&with("/object/adjectives", json!(["blue"])), "changes[0].object.adjectives");
     refused(&with("/object/adjectives", json!(vec!["red"; 9])), "changes[0].object.adjectives");

@@ -145,7 +145,8 @@ impl Response {
             what: format!("the server answered with status {status}{colon}{said}"),
             again: matches!(status, 408 | 425 | 429 | 500..=599),
             retry_after: self.retry_after,
-            refused: matches!(status, 400 | 422 | 501),
+            // llama-cpp-python answers with 500 where others do with 422.
+            refused: matches!(status, 400 | 422 | 500 | 501),
         }
     }
 }

@@ -153,7 +153,8 @@ fn nobody_at_the_address_is_an_answer_too() {
 fn servers_of_other_dialects_are_understood() {
     let refuses = |what: &str| status(422, &json!({"error": {"message": what}}).to_string());
     let asked = ask(vec![
-        refuses("body.response_format.type: Input should be 'text' or 'json_object'"),
+        // As llama-cpp-python says it.
+        status(500, r#"{"error":{"message":"{'loc': ('body', 'response_format', 'type')}"}}"#),
         refuses("Unsupported parameter: 'max_tokens'; use 'max_completion_tokens'"),
         refuses("'temperature' does not support 0 with this model"),
         refuses("response_format is not supported"),

@@ -35,7 +35,7 @@ impl LanguageModel for Parrot {
     }
 }
 
-fn server_config() -> Config {
+pub fn server_config() -> Config {
     let mut config = Config::default();
     config.language = Language::Server;
     config
