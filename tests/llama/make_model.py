@@ -1,6 +1,6 @@
 """Writes a tiny language model with random weights: usage: make_model.py FILE.gguf
 
-One layer, 32 numbers wide, a vocabulary of single characters. What it says is noise; a server
+Two layers, 32 numbers wide, a vocabulary of single characters. What it says is noise; a server
 that constrains its answers must make JSON of the schema of it all the same. One dimension of the
 embeddings is constant, so that a row of the output can be given a bias: the characters that end
 texts and lists have one, or the noise would never end.
@@ -11,8 +11,10 @@ import sys
 import gguf
 import numpy as np
 
-WIDTH, HEADS, INNER, LAYERS = 32, 4, 64, 1
-ENDINGS = {'"': 1.3, "]": 1.3, "}": 1.0, "n": 0.8, "r": 0.3}
+WIDTH, HEADS, INNER, LAYERS = 32, 4, 64, 2
+BIAS = {'"': 2.5, "]": 1.0, "}": 1.5, "{": 2.0, "r": 1.0, "n": 1.0}
+# The louder the context, the less the noise depends on the last character alone.
+CONTEXT = 4.0
 
 
 def vocabulary():
@@ -36,7 +38,11 @@ def main(path):
     output = matrix(len(tokens), WIDTH)
     output[:, 0] = 0.0
     for n, (text, _) in enumerate(tokens):
-        output[n, 0] = ENDINGS.get(text, 0.0)
+        output[n, 0] = BIAS.get(text, 0.0)
+    # The server's grammar lets control characters stand within texts, which no JSON may have.
+    # No model that was trained writes them; neither does this one.
+    for byte in range(32):
+        output[tokens.index((f"<0x{byte:02X}>", 6)), 0] = -20.0
 
     writer = gguf.GGUFWriter(path, "llama")
     writer.add_name("noise")
@@ -63,13 +69,19 @@ def main(path):
         for part in ("attn_norm", "ffn_norm"):
             writer.add_tensor(f"blk.{n}.{part}.weight", np.ones(WIDTH, dtype=np.float32))
         for part in ("attn_q", "attn_k", "attn_v", "attn_output"):
-            writer.add_tensor(f"blk.{n}.{part}.weight", matrix(WIDTH, WIDTH))
+            weights = matrix(WIDTH, WIDTH) * (1.0 if part == "attn_output" else CONTEXT)
+            if part == "attn_output":
+                weights[0] = 0.0  # what is constant stays so
+            writer.add_tensor(f"blk.{n}.{part}.weight", weights)
         for part, rows, columns in (
             ("ffn_gate", INNER, WIDTH),
             ("ffn_up", INNER, WIDTH),
             ("ffn_down", WIDTH, INNER),
         ):
-            writer.add_tensor(f"blk.{n}.{part}.weight", matrix(rows, columns))
+            weights = matrix(rows, columns)
+            if part == "ffn_down":
+                weights[0] = 0.0
+            writer.add_tensor(f"blk.{n}.{part}.weight", weights)
     writer.write_header_to_file()
     writer.write_kv_data_to_file()
     writer.write_tensors_to_file()
