@@ -14,7 +14,9 @@ use crate::change::{
     Action, Cause, ChangeRecord, Claim, Departure, EvidenceRef, Modality, NodeRef, Occurred,
     Outcome, Primitive, Sighting, Step, Transaction, World,
 };
-use crate::event::{Interpretation, LanguageReply, Status, Task, TaskStatus, Topic, Utterance};
+use crate::event::{
+    Interpretation, LanguageReply, Span, Status, Task, TaskStatus, Topic, Utterance,
+};
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, Layer, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
 use crate::time::Stamp;
@@ -370,12 +372,22 @@ prop_compose! {
 }
 
 prop_compose! {
+    /// Any words and what they were taken to mean.
+    fn span()(
+        role in "[a-z]{0,8}", start in any::<u32>(), end in any::<u32>(),
+        chosen in vec(node_ref(), 0..3), candidates in vec(node_ref(), 0..3), why in ".{0,20}",
+    ) -> Span {
+        Span { role: role.into(), start, end, chosen, candidates, why }
+    }
+}
+
+prop_compose! {
     /// Any interpretation.
     pub fn interpretation()(
         of in evidence_ref(), object in option::of(node_ref()),
         source_room in option::of(node_ref()), target_room in option::of(node_ref()),
-        support in option::of(node_ref()), note in ".{0,20}",
+        support in option::of(node_ref()), note in ".{0,20}", spans in vec(span(), 0..3),
     ) -> Interpretation {
-        Interpretation { of, object, source_room, target_room, support, note }
+        Interpretation { of, object, source_room, target_room, support, note, spans }
     }
 }

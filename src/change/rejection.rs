@@ -35,6 +35,38 @@ pub enum Rejection {
         /// Who answers to it.
         candidates: Vec<NodeId>,
     },
+    /// Several do, and what was said tells them apart no further.
+    #[error("{wanted} is ambiguous: {}. {question}", join(.candidates))]
+    WhichOne {
+        /// What was asked for.
+        wanted: NodeRef,
+        /// Who answers to it.
+        candidates: Vec<NodeId>,
+        /// What to ask whoever said it.
+        question: String,
+    },
+    /// What answers to the name is elsewhere.
+    #[error("no such object known: {wanted} {where_}. {question}")]
+    NotThere {
+        /// What was asked for.
+        wanted: NodeRef,
+        /// Where it is said to have been, `in the kitchen`.
+        where_: String,
+        /// Who answers to the name elsewhere.
+        known: Vec<NodeId>,
+        /// What to ask whoever said it.
+        question: String,
+    },
+    /// More are spoken of than are known.
+    #[error("{said} × {wanted} are spoken of, but only {} known: {}", .known.len(), join(.known))]
+    TooFew {
+        /// What was asked for.
+        wanted: NodeRef,
+        /// How many are spoken of.
+        said: u32,
+        /// Who answers to it.
+        known: Vec<NodeId>,
+    },
     /// No room answers to the name.
     #[error("no such room known: {wanted}")]
     UnknownRoom {
@@ -122,7 +154,9 @@ impl Rejection {
             Self::NothingNamed => "nothing_named",
             Self::UnknownObject { .. } => "unknown_object",
             Self::Contradiction { .. } => "contradiction",
-            Self::Ambiguous { .. } => "ambiguous",
+            Self::Ambiguous { .. } | Self::WhichOne { .. } => "ambiguous",
+            Self::NotThere { .. } => "not_there",
+            Self::TooFew { .. } => "too_few",
             Self::UnknownRoom { .. } => "unknown_room",
             Self::UnknownSupport { .. } => "unknown_support",
             Self::NoTarget { .. } => "no_target",

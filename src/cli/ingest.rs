@@ -265,7 +265,8 @@ impl Ingest {
     }
 }
 
-fn initial_graph(path: &Path) -> anyhow::Result<(crate::graph::SceneGraph, Stamp)> {
+/// The graph of a scene, or the last state of a recording, and its moment.
+pub(super) fn initial_graph(path: &Path) -> anyhow::Result<(crate::graph::SceneGraph, Stamp)> {
     if is_mcap(path) {
         let recording = source::open(path)?;
         let state = state_at(&recording, At::End)?;

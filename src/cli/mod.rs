@@ -19,6 +19,8 @@ mod replay;
 mod reprocess;
 mod snapshot;
 mod source;
+mod tell;
+mod tell_explain;
 mod verify;
 mod why;
 
@@ -69,6 +71,7 @@ enum Command {
     Import(import::Import),
     Export(export::Export),
     Ingest(ingest::Ingest),
+    Tell(tell::Tell),
     Demo(demo::Demo),
 }
 
@@ -123,6 +126,7 @@ impl Cli {
             Command::Import(args) => import::run(&args, out),
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
+            Command::Tell(args) => tell::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use super::{ChangeDocument, EvidenceDocument, PoseDocument, PrimitiveDocument, RefDocument};
 use crate::change::{Cause, Step};
-use crate::event::{Event, Interpretation, LanguageReply, Logged, SensorMessage, Task, TaskStatus};
+use crate::event::{
+    Event, Interpretation, LanguageReply, Logged, SensorMessage, Span, Task, TaskStatus,
+};
 
 /// An event in its place in the log.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -116,6 +118,9 @@ pub enum ContentDocument {
         support: Option<RefDocument>,
         /// How it was understood, or why not.
         note: String,
+        /// The words it rests on.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        spans: Vec<SpanDocument>,
     },
     /// A change record.
     Change {
@@ -127,6 +132,37 @@ pub enum ContentDocument {
         /// What it does, in order.
         steps: Vec<StepDocument>,
     },
+}
+
+/// Words of a text, and what they were taken to mean.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SpanDocument {
+    /// What they tell: `object`, `support`, `source`, `target` and the like.
+    pub role: String,
+    /// First byte of the text.
+    pub start: u32,
+    /// The byte after the last.
+    pub end: u32,
+    /// What they were taken to mean.
+    pub chosen: Vec<RefDocument>,
+    /// All that they may mean equally well.
+    pub candidates: Vec<RefDocument>,
+    /// Why.
+    pub why: String,
+}
+
+impl SpanDocument {
+    /// The document of a span.
+    pub fn of(span: &Span) -> Self {
+        Self {
+            role: span.role.to_string(),
+            start: span.start,
+            end: span.end,
+            chosen: span.chosen.iter().map(RefDocument::of).collect(),
+            candidates: span.candidates.iter().map(RefDocument::of).collect(),
+            why: span.why.clone(),
+        }
+    }
 }
 
 /// A primitive and its cause.
@@ -248,6 +284,7 @@ impl ContentDocument {
             target_room: RefDocument::maybe(understood.target_room.as_ref()),
             support: RefDocument::maybe(understood.support.as_ref()),
             note: understood.note.clone(),
+            spans: understood.spans.iter().map(SpanDocument::of).collect(),
         }
     }
 }

@@ -168,6 +168,7 @@ fn derived() -> Vec<Event> {
             target_room: None,
             support: None,
             note: "one mug".into(),
+            spans: vec![],
         }),
         Event::Change(ChangeRecord { seq: 7, at: at(), claim: claim(), outcome: Outcome::Applied }),
         Event::Transaction(Transaction {

@@ -1,5 +1,6 @@
 //! The inputs of a log, and what was understood of them.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::change::{EvidenceRef, NodeRef};
@@ -153,6 +154,34 @@ pub struct Interpretation {
     pub support: Option<NodeRef>,
     /// How it was understood, or why not.
     pub note: String,
+    /// The words it rests on, and how each was understood.
+    pub spans: Vec<Span>,
+}
+
+impl Interpretation {
+    /// An interpretation of `of` that says nothing yet.
+    pub fn of(of: EvidenceRef) -> Self {
+        let (object, source_room, target_room, support) = (None, None, None, None);
+        let (note, spans) = (String::new(), Vec::new());
+        Self { of, object, source_room, target_room, support, note, spans }
+    }
+}
+
+/// Words of a text, and what they were taken to mean.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// What they tell: `object`, `support`, `source`, `target` and the like.
+    pub role: Cow<'static, str>,
+    /// First byte of the text.
+    pub start: u32,
+    /// The byte after the last; as `start` where the words are those of an earlier text.
+    pub end: u32,
+    /// What they were taken to mean.
+    pub chosen: Vec<NodeRef>,
+    /// All that they may mean equally well.
+    pub candidates: Vec<NodeRef>,
+    /// Why.
+    pub why: String,
 }
 
 /// A message that is passed through as it came.

@@ -9,7 +9,7 @@ mod inputs;
 mod language;
 mod topic;
 
-pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Status, Task, TaskStatus, Utterance};
+pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Span, Status, Task, TaskStatus, Utterance};
 pub use language::{LanguageReply, MAX_ANSWER};
 pub use topic::{Role, Topic};
 

@@ -5,16 +5,17 @@ use crate::bytes::{Reader, Writer};
 use crate::change::World;
 use crate::graph::{CanonicalError, StateHash};
 use crate::modality::action::ActionDetector;
+use crate::modality::human::HumanDetector;
 use crate::time::Stamp;
 
 /// Version of the bytes. A checkpoint of another version is ignored, for it is only a cache.
-const STATE_VERSION: u64 = 1;
+const STATE_VERSION: u64 = 2;
 
 /// Why bytes are not those of an updater.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RestoreError {
     /// Written by another version of the program.
-    #[error("checkpoint bytes have version {found}, this program reads version 1")]
+    #[error("checkpoint bytes have version {found}, this program reads version 2")]
     Version {
         /// The version found.
         found: u64,
@@ -39,6 +40,7 @@ impl Updater {
         out.u64(self.at.nanos());
         let hash = self.world.write_bytes(&mut out);
         self.action.write_bytes(&mut out);
+        self.human.write_bytes(&mut out);
         (out.0, hash)
     }
 
@@ -48,11 +50,12 @@ impl Updater {
         let (order, changes, at) = read_counters(&mut input)?;
         let world = World::read_bytes(&mut input)?;
         let action = ActionDetector::read_bytes(&mut input)?;
+        let human = HumanDetector::read_bytes(&mut input)?;
         if !input.0.is_empty() {
             let what = "bytes follow the last memory";
             return Err(CanonicalError::Malformed { what }.into());
         }
-        Ok(Self { config, world, action, order, changes, at })
+        Ok(Self { config, world, action, human, order, changes, at })
     }
 
     /// Number of the last event, number of the last change and log time of the last event.

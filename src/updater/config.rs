@@ -120,11 +120,8 @@ mod tests {
         let config = Config { added_decay_rate: 0.25, ..Config::default() };
         assert_eq!(Config::from_json(&config.to_json()).unwrap(), config);
         assert_eq!(Config::from_json("{}").unwrap(), Config::default());
-        let asking = Config {
-            language: Language::Server,
-            label_similarity: Some(0.5),
-            ..Config::default()
-        };
+        let asking =
+            Config { language: Language::Server, label_similarity: Some(0.5), ..Config::default() };
         assert_eq!(Config::from_json(&asking.to_json()).unwrap(), asking);
     }
 

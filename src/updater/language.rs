@@ -1,36 +1,39 @@
 //! What is asked of language models about an input, and what is made of their replies.
 
 use super::{Config, Language, Updater};
-use crate::change::EvidenceRef;
-use crate::event::{Event, Interpretation, LanguageReply, Topic, Utterance};
+use crate::event::{Event, LanguageReply};
 use crate::modality::Desk;
 use crate::modality::human::{
-    LanguageModel, LanguageRequest, NEAREST_PROMPT, READING_PROMPT, Reading, parse_reading, reading_request,
+    HumanDetector, LabelSimilarity, LanguageModel, LanguageRequest, MAX_ASKED, NEAREST_PROMPT,
+    Nearest, READING_PROMPT, Reading, Said, nearest_request, parse_reading, reading_request,
 };
 
 impl Updater {
     /// What a model is to be asked next about `input`, with what was answered so far in
     /// `outputs`; `None` if nothing (more) is needed.
     ///
-    /// Call it until it gives `None`, adding each reply to `outputs`, then hand both to
-    /// [`Updater::update_with`]. A reply that is an error, or none at all, is fine: the built-in
+    /// First what a sentence reports, if a server is to read it; then which labels are nearest
+    /// to names that nobody knows, if a model is to be asked that. [`Updater::ask`] asks until
+    /// nothing is needed. A reply that is an error, or none at all, is fine: the built-in
     /// interpreter reads the sentence then.
     pub fn request(&self, input: &Event, outputs: &[Event]) -> Option<LanguageRequest> {
-        match input {
-            Event::Utterance(said) => {
-                if self.config.language == Language::Server
-                    && reply(outputs, READING_PROMPT).is_none()
-                {
-                    return reading_request(&self.world, &said.text);
-                }
-                None
-            }
-            _ => None,
+        let Event::Utterance(said) = input else { return None };
+        let (world, text) = (&self.world, said.text.as_str());
+        let reads = self.config.language == Language::Server
+            && text.len() <= MAX_ASKED
+            && !self.human.corrects(world, self.at, text);
+        if reads && reply(outputs, READING_PROMPT).is_none() {
+            return reading_request(world, text);
         }
+        if self.config.label_similarity.is_none() || reply(outputs, NEAREST_PROMPT).is_some() {
+            return None;
+        }
+        let answers = Answers::of(&self.config, text, 0, outputs);
+        let reading = answers.reading.as_ref().ok().and_then(Option::as_ref);
+        let reading = reading.map(|(_, reading)| reading);
+        nearest_request(world, &self.human.unknown_names(world, self.at, text, reading))
     }
-}
 
-impl Updater {
     /// Asks `model` all that is needed to know about `input`; the replies, in order.
     ///
     /// Whatever the model does, the replies can be recorded: those that are too long are
@@ -63,60 +66,75 @@ fn recordable(reply: LanguageReply) -> LanguageReply {
     }
 }
 
-/// The reply to the question of this kind, whatever its version.
-fn reply<'o>(outputs: &'o [Event], prompt: &str) -> Option<&'o LanguageReply> {
+/// The reply to the question of this kind, whatever its version, and its place in `outputs`.
+fn reply<'o>(outputs: &'o [Event], prompt: &str) -> Option<(usize, &'o LanguageReply)> {
     let kind = |prompt: &str| prompt.split('/').next().map(str::to_owned);
-    outputs.iter().find_map(|output| match output {
-        Event::LanguageReply(reply) if kind(&reply.prompt) == kind(prompt) => Some(reply),
+    outputs.iter().enumerate().find_map(|(n, output)| match output {
+        Event::LanguageReply(reply) if kind(&reply.prompt) == kind(prompt) => Some((n, reply)),
         _ => None,
     })
 }
 
-/// What the models' replies make of a sentence.
-#[derive(Debug)]
-pub(super) enum Read {
-    /// A model read it: by which back end, and what.
-    ByModel(String, Reading),
-    /// The built-in interpreter must; why, if a model was to.
-    BuiltIn(Option<String>),
+/// What the replies of models say about a sentence, as far as the configuration asks for them.
+pub(super) struct Answers {
+    /// Which back end read it, and what; `None` if the built-in interpreter is to.
+    ///
+    /// # Errors
+    /// Why the built-in interpreter must, though a model was to.
+    reading: Result<Option<(String, Reading)>, String>,
+    nearest: Option<Nearest>,
+    /// Numbers of the replies that are made use of.
+    replies: Vec<u64>,
 }
 
-/// Reads `text` as the reply in `outputs` has it, if the configuration asks for that.
-fn read(config: &Config, text: &str, outputs: &[Event]) -> Read {
-    if config.language == Language::Builtin {
-        return Read::BuiltIn(None);
+impl Answers {
+    /// Those in `outputs`, which follow event `order`, about `text`.
+    pub fn of(config: &Config, text: &str, order: u64, outputs: &[Event]) -> Self {
+        let mut answers = Self { reading: Ok(None), nearest: None, replies: Vec::new() };
+        let number = |n: usize| order + 1 + n as u64;
+        if config.language == Language::Server {
+            answers.reading = match reply(outputs, READING_PROMPT) {
+                // Not asked for corrections and long texts: that is for the built-in one.
+                None => Ok(None),
+                Some((n, reply)) => {
+                    answers.replies.push(number(n));
+                    read(text, reply).map(Some)
+                }
+            };
+        }
+        if let (Some(least), Some((n, reply))) =
+            (config.label_similarity, reply(outputs, NEAREST_PROMPT))
+        {
+            answers.replies.push(number(n));
+            let answer = reply.answer.as_ref().ok();
+            // Nothing is near, then: what is unknown stays so.
+            answers.nearest = answer.and_then(|answer| Nearest::parse(answer, least).ok());
+        }
+        answers
     }
-    let Some(reply) = reply(outputs, READING_PROMPT) else {
-        return Read::BuiltIn(Some("no model was asked".to_owned()));
-    };
-    match &reply.answer {
-        Err(error) => Read::BuiltIn(Some(error.clone())),
-        Ok(answer) => match parse_reading(text, answer) {
-            Ok(reading) => Read::ByModel(reply.back_end.to_string(), reading),
-            Err(error) => Read::BuiltIn(Some(error.to_string())),
-        },
+
+    /// Has `human` make claims of it.
+    pub fn utterance(
+        &self,
+        human: &mut HumanDetector,
+        desk: &mut Desk<'_>,
+        order: u64,
+        text: &str,
+    ) {
+        let similarity = self.nearest.as_ref().map(|nearest| nearest as &dyn LabelSimilarity);
+        let said = Said { similarity, replies: &self.replies, ..Said::new(order, text) };
+        match &self.reading {
+            Ok(Some((back_end, reading))) => {
+                human.told(desk, &said, reading, back_end.clone().into());
+            }
+            Ok(None) => human.utterance(desk, &said),
+            Err(why) => human.utterance(desk, &Said { instead: Some(why), ..said }),
+        }
     }
 }
 
-pub(super) fn utterance(
-    desk: &mut Desk<'_>,
-    config: &Config,
-    order: u64,
-    said: &Utterance,
-    outputs: &[Event],
-) {
-    let _ = NEAREST_PROMPT;
-    let note = match read(config, &said.text, outputs) {
-        Read::BuiltIn(None) => return,
-        Read::BuiltIn(Some(why)) => format!("read by the built-in interpreter: {why}"),
-        Read::ByModel(back_end, reading) => format!("{} by {back_end}", reading.note),
-    };
-    desk.interpret(Interpretation {
-        of: EvidenceRef { topic: Topic::Utterance.name(), order },
-        object: None,
-        source_room: None,
-        target_room: None,
-        support: None,
-        note,
-    });
+fn read(text: &str, reply: &LanguageReply) -> Result<(String, Reading), String> {
+    let answer = reply.answer.as_ref().map_err(Clone::clone)?;
+    let reading = parse_reading(text, answer).map_err(|error| error.to_string())?;
+    Ok((reply.back_end.to_string(), reading))
 }

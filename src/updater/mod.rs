@@ -14,6 +14,8 @@ mod bytes;
 mod config;
 mod language;
 
+use self::language::Answers;
+
 pub use bytes::RestoreError;
 pub use config::{Config, ConfigError, Language};
 
@@ -22,6 +24,7 @@ use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
+use crate::modality::human::HumanDetector;
 use crate::time::Stamp;
 
 /// The world, the detectors with their memory, and the counters of the log.
@@ -30,6 +33,7 @@ pub struct Updater {
     config: Config,
     world: World,
     action: ActionDetector,
+    human: HumanDetector,
     /// Number of the last event.
     order: u64,
     /// Number of the last change.
@@ -71,6 +75,7 @@ impl Updater {
             config,
             world: World::default(),
             action: ActionDetector::default(),
+            human: HumanDetector::default(),
             order: 0,
             changes: 0,
             at: Stamp::EPOCH,
@@ -170,7 +175,10 @@ impl Updater {
         match input {
             Event::Task(task) => self.action.task(&mut desk, order, task),
             Event::TaskStatus(status) => self.action.task_status(&mut desk, order, status),
-            Event::Utterance(said) => language::utterance(&mut desk, &self.config, order, said, outputs),
+            Event::Utterance(said) => {
+                let answers = Answers::of(&self.config, &said.text, order, outputs);
+                answers.utterance(&mut self.human, &mut desk, order, &said.text);
+            }
             _ => {}
         }
         desk.into_events()

@@ -3,9 +3,9 @@
 use super::common::{
     evidence, node_ref, optional_ref, pose, read_evidence, read_node_ref, read_pose,
 };
-use super::fields::{Fields, required};
+use super::fields::{Field, Fields, required};
 use super::{WireError, proto};
-use crate::event::{Interpretation, Status, Task, TaskStatus, Utterance};
+use crate::event::{Interpretation, Span, Status, Task, TaskStatus, Utterance};
 
 /// Longest utterance or instruction, in bytes.
 pub const MAX_UTTERANCE: usize = crate::event::MAX_SENTENCE;
@@ -115,13 +115,44 @@ pub(super) fn interpretation(of: &Interpretation) -> proto::Interpretation {
         target_room: optional_ref(of.target_room.as_ref()),
         support: optional_ref(of.support.as_ref()),
         note: of.note.clone(),
+        spans: of.spans.iter().map(span).collect(),
     }
+}
+
+fn span(span: &Span) -> proto::Span {
+    proto::Span {
+        role: span.role.to_string(),
+        start: span.start,
+        end: span.end,
+        chosen: span.chosen.iter().map(node_ref).collect(),
+        candidates: span.candidates.iter().map(node_ref).collect(),
+        why: span.why.clone(),
+    }
+}
+
+fn read_span(field: &Field<'_>) -> Result<Span, WireError> {
+    let mut fields = field.message("Span")?;
+    let (chosen, candidates) = (Vec::new(), Vec::new());
+    let (role, why) = ("".into(), String::new());
+    let mut span = Span { role, start: 0, end: 0, chosen, candidates, why };
+    while let Some(field) = fields.next()? {
+        match field.number {
+            1 => span.role = field.text("role")?.to_owned().into(),
+            2 => span.start = field.u32("start")?,
+            3 => span.end = field.u32("end")?,
+            4 => span.chosen.push(read_node_ref(&field)?),
+            5 => span.candidates.push(read_node_ref(&field)?),
+            6 => field.derived_text("why")?.clone_into(&mut span.why),
+            _ => {}
+        }
+    }
+    Ok(span)
 }
 
 pub(super) fn read_interpretation(payload: &[u8]) -> Result<Interpretation, WireError> {
     let mut fields = Fields::new("Interpretation", payload);
     let (mut of, mut object, mut source_room) = (None, None, None);
-    let (mut target_room, mut support, mut note) = (None, None, "");
+    let (mut target_room, mut support, mut note, mut spans) = (None, None, "", Vec::new());
     while let Some(field) = fields.next()? {
         match field.number {
             1 => field.once(&mut of, read_evidence(&field)?)?,
@@ -130,10 +161,11 @@ pub(super) fn read_interpretation(payload: &[u8]) -> Result<Interpretation, Wire
             4 => field.once(&mut target_room, read_node_ref(&field)?)?,
             5 => field.once(&mut support, read_node_ref(&field)?)?,
             6 => note = field.derived_text("note")?,
+            7 => spans.push(read_span(&field)?),
             _ => {}
         }
     }
     let of = required(of, "Interpretation", "of")?;
     let note = note.to_owned();
-    Ok(Interpretation { of, object, source_room, target_room, support, note })
+    Ok(Interpretation { of, object, source_room, target_room, support, note, spans })
 }

@@ -293,5 +293,6 @@ fn interpret(desk: &Desk<'_>, order: u64, task: &Task) -> Interpretation {
         target_room: named(target),
         support: named(support),
         note: notes.join("; "),
+        spans: Vec::new(),
     }
 }

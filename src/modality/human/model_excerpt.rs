@@ -187,7 +187,11 @@ fn entry<'w>(id: NodeId, object: &'w Object, world: &World) -> ObjectEntry<'w> {
     ObjectEntry { id: id.to_string(), label, room: object.room.to_string(), on, gone }
 }
 
-fn rooms<'w>(world: &'w World, named: &BTreeMap<NodeId, usize>, objects: &[NodeId]) -> Vec<RoomEntry<'w>> {
+fn rooms<'w>(
+    world: &'w World,
+    named: &BTreeMap<NodeId, usize>,
+    objects: &[NodeId],
+) -> Vec<RoomEntry<'w>> {
     let mut first: Vec<(Reverse<usize>, NodeId)> =
         named.iter().map(|(id, count)| (Reverse(*count), *id)).collect();
     first.sort_unstable();

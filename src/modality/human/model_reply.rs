@@ -167,6 +167,9 @@ fn mention(sentence: &str, named: &Named) -> Result<Mention, Problem> {
     let Some(span) = find_words(sentence, named.words.trim()) else {
         return wrong("words", format!("{:?} is not in the sentence", shown(&named.words)));
     };
+    if !names_something(&named.words) {
+        return wrong("words", format!("{:?} names nothing", shown(&named.words)));
+    }
     let name = named.name.trim();
     if let Err(error) = Label::new(name) {
         return wrong("name", error.to_string());
@@ -187,8 +190,74 @@ fn mention(sentence: &str, named: &Named) -> Result<Mention, Problem> {
         n => return wrong("count", format!("{n} is not between 0 and {MAX_COUNT}")),
     };
     let adjectives = named.adjectives.iter().map(|word| word.trim().to_lowercase()).collect();
-    let (id, noun) = (named.id.clone(), name.to_owned());
-    Ok(Mention { noun, adjectives, quantity, id, span: Some(span) })
+    let definite = quantity != Quantity::One || is_definite(sentence, span);
+    let (id, noun, span) = (named.id.clone(), name.to_owned(), Some(span));
+    Ok(Mention { noun, adjectives, quantity, id, span, definite, ..Mention::default() })
+}
+
+/// Words that name nothing by themselves: whoever tells a model of "everything" names nothing.
+const EMPTY: [&str; 48] = [
+    "a",
+    "all",
+    "an",
+    "and",
+    "another",
+    "any",
+    "anything",
+    "both",
+    "each",
+    "every",
+    "everybody",
+    "everyone",
+    "everything",
+    "from",
+    "he",
+    "her",
+    "hers",
+    "him",
+    "his",
+    "i",
+    "in",
+    "into",
+    "it",
+    "its",
+    "me",
+    "my",
+    "of",
+    "on",
+    "one",
+    "ones",
+    "our",
+    "she",
+    "some",
+    "something",
+    "stuff",
+    "that",
+    "the",
+    "their",
+    "them",
+    "these",
+    "they",
+    "thing",
+    "things",
+    "this",
+    "those",
+    "to",
+    "we",
+    "you",
+];
+
+fn names_something(words: &str) -> bool {
+    let mut each = words.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    each.any(|word| !EMPTY.contains(&&*word.to_lowercase()))
+}
+
+/// Whether the words are of something known: "the mug", not "a mug".
+fn is_definite(sentence: &str, (start, end): (usize, usize)) -> bool {
+    let article = |word: &str| matches!(&*word.to_lowercase(), "a" | "an" | "another" | "some");
+    let first = sentence[start..end].split_whitespace().next();
+    let before = sentence[..start].split_whitespace().next_back();
+    !first.into_iter().chain(before).any(article)
 }
 
 fn when(hours: &Hours) -> Result<When, Problem> {
@@ -218,7 +287,8 @@ fn find_words(sentence: &str, words: &str) -> Option<(usize, usize)> {
     sentence.char_indices().find_map(|(start, _)| {
         let length = prefix_length(&sentence[start..], words)?;
         let end = start + length;
-        let (before, after) = (sentence[..start].chars().next_back(), sentence[end..].chars().next());
+        let (before, after) =
+            (sentence[..start].chars().next_back(), sentence[end..].chars().next());
         let cuts_in = inner(before) && inner(words.chars().next());
         let cuts_off = inner(after) && inner(words.chars().next_back());
         (!cuts_in && !cuts_off).then_some((start, end))

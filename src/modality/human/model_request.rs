@@ -91,8 +91,9 @@ fn chat_request(
 /// Asks which labels of `world` are nearest to `names`; `None` if there is nothing to ask.
 pub fn nearest_request(world: &World, names: &[String]) -> Option<LanguageRequest> {
     let objects = world.graph().all_objects().chain(world.all_departed());
+    let rooms = world.graph().rooms().map(|(_, room)| room.label.as_str());
     let labels: BTreeSet<&str> =
-        objects.map(|(_, object)| object.label.as_str()).collect();
+        objects.map(|(_, object)| object.label.as_str()).chain(rooms).collect();
     if names.is_empty() || labels.is_empty() {
         return None;
     }

@@ -31,6 +31,9 @@ pub struct Statement {
 }
 
 /// Words that name a thing or a room.
+///
+/// With [`Action::Added`], a definite mention ("I put the mug on the desk") is of something that
+/// may be known: if it is, it has moved; with [`Action::Moved`] and [`Action::Removed`] it must be.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mention {
     /// The noun without articles and adjectives, singular where that is known: "tv remote".
@@ -43,6 +46,12 @@ pub struct Mention {
     pub id: Option<String>,
     /// Bytes of the sentence that the mention comes from, `start..end`.
     pub span: Option<(usize, usize)>,
+    /// Whether it is spoken of as known: "the mug", "my keys", as opposed to "a new mug".
+    pub definite: bool,
+    /// Where it is said to be or to have been: rooms or things, any of which narrow it down.
+    pub at: Vec<Mention>,
+    /// What is meant is not this thing, but the place where it was before the sentence.
+    pub its_place: bool,
 }
 
 /// How many things a mention means.

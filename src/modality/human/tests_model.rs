@@ -53,6 +53,7 @@ fn an_answer_is_read_with_the_places_of_its_words() {
     assert_eq!(span(statement.source_room.as_ref().unwrap()), Some("Kitchen"));
     assert_eq!(statement.when, Some(When { earliest_s: 18_000.0, latest_s: 5_400.0 }));
     assert_eq!(statement.target_room, None);
+    assert!(statement.object.definite);
 }
 
 #[test]
@@ -87,6 +88,7 @@ fn what_is_wrong_with_an_answer_is_named() {
     refused(&with("/object/words", json!("the fridge")), "changes[0].object.words");
     refused(&with("/object/words", json!("ug")), "changes[0].object.words");
     refused(&with("/object/words", json!("")), "changes[0].object.words");
+    refused(&with("/object/words", json!("the")), "\"the\" names nothing");
     refused(&with("/support/words", json!("table")), "changes[0].support.words");
     refused(&with("/source_room/words", json!("attic")), "changes[0].source_room.words");
     refused(&with("/object/name", json!(" ")), "changes[0].object.name");
@@ -131,8 +133,23 @@ fn the_words_of_a_sentence_are_found_in_any_script_and_case() {
 /// Any JSON, in the names of the schema more often than not.
 fn junk() -> impl Strategy<Value = Value> {
     let key = select(vec![
-        "kind", "changes", "action", "object", "support", "words", "name", "id", "count", "when",
-        "earliest", "latest", "confidence", "adjectives", "source_room", "target_room", "x",
+        "kind",
+        "changes",
+        "action",
+        "object",
+        "support",
+        "words",
+        "name",
+        "id",
+        "count",
+        "when",
+        "earliest",
+        "latest",
+        "confidence",
+        "adjectives",
+        "source_room",
+        "target_room",
+        "x",
     ]);
     let text = prop_oneof![
         select(vec!["report", "moved", "removed", "mug", "red", "the red mug", "O17", "R1", "O0"])
@@ -159,9 +176,20 @@ fn junk() -> impl Strategy<Value = Value> {
 /// An answer that is nearly right.
 fn nearly() -> impl Strategy<Value = Value> {
     let paths = vec![
-        "/action", "/object", "/object/words", "/object/name", "/object/id", "/object/count",
-        "/object/adjectives", "/support", "/source_room", "/target_room", "/when",
-        "/when/earliest", "/when/latest", "/confidence",
+        "/action",
+        "/object",
+        "/object/words",
+        "/object/name",
+        "/object/id",
+        "/object/count",
+        "/object/adjectives",
+        "/support",
+        "/source_room",
+        "/target_room",
+        "/when",
+        "/when/earliest",
+        "/when/latest",
+        "/confidence",
     ];
     (option::of((select(paths), junk())), 0..3_usize).prop_map(|(edit, copies)| {
         let mut change = moved();
@@ -235,9 +263,7 @@ proptest! {
 
 #[test]
 fn near_labels_are_those_above_the_threshold() {
-    let near = |name: &str, label: &str, similarity: f64| {
-        json!({"name": name, "label": label, "similarity": similarity})
-    };
+    let near = |name: &str, label: &str, similarity: f64| json!({"name": name, "label": label, "similarity": similarity});
     let answer = json!({"nearest": [near("sofa", "couch", 0.83), near("dog", "log", 0.3)]});
     let nearest = Nearest::parse(&answer.to_string(), 0.5).unwrap();
     assert_eq!(nearest.label("sofa").map(|near| near.label.as_str()), Some("couch"));
@@ -255,7 +281,8 @@ fn mansion(n: u32) -> World {
         graph.insert_region(room(index), Region { label, extent: None, parent: None }).unwrap();
     }
     for index in 0..n {
-        let label = if index == n - 1 { "zither".to_owned() } else { format!("thing {}", index % 400) };
+        let label =
+            if index == n - 1 { "zither".to_owned() } else { format!("thing {}", index % 400) };
         let object = Object {
             label: Label::new(&label).unwrap(),
             pose: crate::geometry::Pose::IDENTITY,

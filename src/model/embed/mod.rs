@@ -36,6 +36,8 @@ pub const BACK_END: &str = "embeddings/1";
 
 /// Tokens of a text that are looked at: labels have fewer.
 const MAX_TOKENS: usize = 64;
+/// Labels that are named for each name: rooms and things among them.
+const ANSWERED: usize = 5;
 /// Embeddings that are kept, at most.
 const KEPT: usize = 20_000;
 
@@ -114,17 +116,16 @@ impl Embeddings {
         let mut nearest = Vec::new();
         for name in &asked.names {
             let embedding = self.embed(name)?;
-            let mut best: Option<NearestLabel> = None;
+            let mut all = Vec::new();
             for label in &asked.labels {
                 self.remember(label)?;
                 let similarity = f64::from(matrix::dot(&embedding, &self.known[label]));
-                // Of equals the first in the order of the question.
-                if best.as_ref().is_none_or(|best| similarity > best.similarity) {
-                    let (name, label) = (name.clone(), label.clone());
-                    best = Some(NearestLabel { name, label, similarity });
-                }
+                let (name, label) = (name.clone(), label.clone());
+                all.push(NearestLabel { name, label, similarity });
             }
-            nearest.extend(best);
+            // Of equals the first in the order of the question.
+            all.sort_by(|a, b| b.similarity.total_cmp(&a.similarity));
+            nearest.extend(all.into_iter().take(ANSWERED));
         }
         Ok(NearestAnswer { nearest })
     }
