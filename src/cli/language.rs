@@ -5,6 +5,7 @@ use std::time::Duration;
 use anyhow::Context;
 
 use super::UsageError;
+use crate::modality::human::LanguageModel;
 use crate::model::Models;
 use crate::model::chat::{ApiKey, Chat, ChatOptions, Endpoint};
 use crate::time::Span;
@@ -29,7 +30,18 @@ pub struct LanguageArgs {
     /// Longest wait for one answer of the server; it is asked up to three times
     #[arg(long, value_name = "SPAN", default_value = "30s")]
     server_timeout: Span,
+    /// Folder of a sentence-transformers model (BERT, safetensors) that finds the nearest known
+    /// label for a name that nobody knows
+    #[cfg(feature = "embeddings")]
+    #[arg(long, value_name = "DIR")]
+    embeddings: Option<std::path::PathBuf>,
 }
+
+/// Least similarity at which a label is taken for a name nobody knows, unless the configuration
+/// says otherwise. With all-MiniLM-L6-v2 synonyms of things at home are mostly above, different
+/// things of one room mostly below.
+#[cfg(feature = "embeddings")]
+const LEAST_SIMILARITY: f64 = 0.6;
 
 impl LanguageArgs {
     /// Whether a server is to be asked.
@@ -41,6 +53,10 @@ impl LanguageArgs {
     pub fn applied_to(&self, mut config: Config) -> Config {
         if self.asks_server() {
             config.language = Language::Server;
+        }
+        #[cfg(feature = "embeddings")]
+        if self.embeddings.is_some() {
+            config.label_similarity.get_or_insert(LEAST_SIMILARITY);
         }
         config
     }
@@ -63,7 +79,32 @@ impl LanguageArgs {
             }
             (Language::Builtin, false) => None,
         };
-        Ok(Models { chat: chat.map(|chat| Box::new(chat) as _), ..Models::default() })
+        let nearest = self.nearest(config)?;
+        Ok(Models { chat: chat.map(|chat| Box::new(chat) as _), nearest })
+    }
+
+    #[cfg(feature = "embeddings")]
+    fn nearest(&self, config: &Config) -> anyhow::Result<Option<Box<dyn LanguageModel>>> {
+        match (&self.embeddings, config.label_similarity) {
+            (Some(folder), Some(_)) => {
+                Ok(Some(Box::new(crate::model::embed::Embeddings::load(folder)?)))
+            }
+            (None, None) => Ok(None),
+            (None, Some(_)) => usage("names are compared by a model here: name it by --embeddings"),
+            (Some(_), None) => usage(
+                "this recording's names are compared by no model: leave out --embeddings, or \
+                 start a new recording",
+            ),
+        }
+    }
+
+    #[cfg(not(feature = "embeddings"))]
+    #[allow(clippy::unused_self)]
+    fn nearest(&self, config: &Config) -> anyhow::Result<Option<Box<dyn LanguageModel>>> {
+        match config.label_similarity {
+            None => Ok(None),
+            Some(_) => usage("label_similarity needs the cargo feature `embeddings`"),
+        }
     }
 
     fn chat(&self) -> anyhow::Result<Chat> {

@@ -46,7 +46,7 @@ pub use model_request::{
 };
 pub use detector::{HumanDetector, Said};
 pub(crate) use detector::spans;
-pub use errand::{Errand, GroundedErrand, ground_errand, read_task};
+pub use errand::{Errand, GroundedErrand, errands, ground_errand, read_task};
 pub use find::LabelSimilarity;
 pub use ground::{GroundConfig, Grounding, Places, Resolved, Verdict, ground};
 pub use reading::{Mention, Quantity, Reading, Statement, When};

@@ -82,7 +82,7 @@ impl<'w> Excerpt<'w> {
 }
 
 /// The words of a text in lower case, each without the endings of the plural.
-fn words(text: &str) -> Vec<String> {
+pub(super) fn words(text: &str) -> Vec<String> {
     let words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     words.map(|word| singular(&word.to_lowercase())).collect()
 }

@@ -7,6 +7,7 @@
 
 use serde::Deserialize;
 
+use super::model_excerpt::words;
 use super::model_request::KINDS;
 use super::{Mention, Quantity, Reading, Statement, When};
 use crate::change::Action;
@@ -123,6 +124,7 @@ fn parse(sentence: &str, answer: &str, wanted: &str) -> Result<Reading, ReplyErr
     };
     let statements: Vec<Statement> =
         changes.iter().enumerate().map(statement).collect::<Result<_, _>>()?;
+    check_apart(&statements)?;
     if *kind == wanted {
         return Ok(Reading { statements, note: format!("read as a {kind}") });
     }
@@ -132,6 +134,25 @@ fn parse(sentence: &str, answer: &str, wanted: &str) -> Result<Reading, ReplyErr
         n => format!("read as a {kind}: the {n} change(s) that the model lists are left out"),
     };
     Ok(Reading { statements: Vec::new(), note })
+}
+
+/// The same words cannot name different things: a model that is talked into listing the house
+/// has no words for it.
+fn check_apart(statements: &[Statement]) -> Result<(), ReplyError> {
+    let objects = || statements.iter().enumerate().map(|(n, it)| (n, &it.object));
+    for (n, a) in objects() {
+        for (_, b) in objects().take(n) {
+            let overlap = match (a.span, b.span) {
+                (Some(a), Some(b)) => a.0 < b.1 && b.0 < a.1,
+                _ => false,
+            };
+            if overlap && (&a.noun, &a.id) != (&b.noun, &b.id) {
+                let problem = format!("the same words name {} and {}", b.noun, a.noun);
+                return Err(field(&format!("changes[{n}].object.words"), problem));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Where in a change, and what is wrong.
@@ -190,6 +211,12 @@ fn mention(sentence: &str, named: &Named) -> Result<Mention, Problem> {
         n => return wrong("count", format!("{n} is not between 0 and {MAX_COUNT}")),
     };
     let adjectives = named.adjectives.iter().map(|word| word.trim().to_lowercase()).collect();
+    // One thing may go by a name that only the model knows; many may not.
+    let alike = || words(name).iter().any(|word| words(&named.words).contains(word));
+    if quantity != Quantity::One && !alike() {
+        let words = shown(&named.words);
+        return wrong("count", format!("{words:?} does not name several of {name}"));
+    }
     let definite = quantity != Quantity::One || is_definite(sentence, span);
     let (id, noun, span) = (named.id.clone(), name.to_owned(), Some(span));
     Ok(Mention { noun, adjectives, quantity, id, span, definite, ..Mention::default() })

@@ -98,6 +98,11 @@ fn what_is_wrong_with_an_answer_is_named() {
     refused(&with("/object/id", json!(17)), "schema");
     refused(&with("/object/count", json!(-1)), "changes[0].object.count");
     refused(&with("/object/count", json!(1.5)), "schema");
+    refused(&with("/object", json!({"words": "the red mug", "name": "fridge", "adjectives": [],
+        "id": null, "count": 0})), "does not name several of fridge");
+    let mut other = moved();
+    other["object"]["name"] = json!("fridge");
+    refused(&report(&json!([moved(), other])), "the same words name mug and fridge");
     refused(&with("/object/count", json!(101)), "changes[0].object.count");
     refused(&with("/object/adjectives", json!(["blue"])), "changes[0].object.adjectives");
     refused(&with("/object/adjectives", json!(vec!["red"; 9])), "changes[0].object.adjectives");

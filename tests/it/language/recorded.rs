@@ -15,8 +15,14 @@ use crate::house::{MANY_CHECKPOINTS, START, at, events, house};
 use crate::laws::cases;
 
 /// Answers with one text after the other, or with errors.
-struct Parrot {
+pub struct Parrot {
     answers: std::vec::IntoIter<Result<String, String>>,
+}
+
+impl Parrot {
+    pub fn new(answers: &[Result<String, String>]) -> Self {
+        Self { answers: answers.to_vec().into_iter() }
+    }
 }
 
 impl LanguageModel for Parrot {
@@ -47,7 +53,7 @@ fn said(text: &str) -> Event {
 
 /// Says `answers.len()` sentences, each answered by one of `answers`.
 fn feed(recorder: &mut Recorder, answers: &[Result<String, String>]) -> Vec<Logged> {
-    let parrot = Parrot { answers: answers.to_vec().into_iter() };
+    let parrot = Parrot::new(answers);
     recorder.set_language(Box::new(parrot));
     let mut all = Vec::new();
     for n in 0..answers.len() as u64 {
@@ -133,7 +139,7 @@ fn only_models_say_what_models_say() {
 }
 
 fn huge() -> LanguageReply {
-    let mut parrot = Parrot { answers: vec![Ok("x".repeat(70_000))].into_iter() };
+    let mut parrot = Parrot::new(&[Ok("x".repeat(70_000))]);
     let updater = Updater::new(server_config());
     parrot.answer(&updater.request(&said("The mug is gone."), &[]).unwrap())
 }
