@@ -12,7 +12,7 @@ import gguf
 import numpy as np
 
 WIDTH, HEADS, INNER, LAYERS = 32, 4, 64, 2
-BIAS = {'"': 2.5, "]": 1.0, "}": 1.5, "{": 2.0, "r": 1.0, "n": 1.0}
+BIAS = {'"': 18.0, "]": 3.0, "}": 1.5, "{": 14.0, "r": 1.0, "n": 6.0}
 # The louder the context, the less the noise depends on the last character alone.
 CONTEXT = 4.0
 
@@ -42,7 +42,7 @@ def main(path):
     # The server's grammar lets control characters stand within texts, which no JSON may have.
     # No model that was trained writes them; neither does this one.
     for byte in range(32):
-        output[tokens.index((f"<0x{byte:02X}>", 6)), 0] = -20.0
+        output[tokens.index((f"<0x{byte:02X}>", 6)), 0] = -100.0
 
     writer = gguf.GGUFWriter(path, "llama")
     writer.add_name("noise")

@@ -126,12 +126,12 @@ fn parse(sentence: &str, answer: &str, wanted: &str) -> Result<Reading, ReplyErr
         changes.iter().enumerate().map(statement).collect::<Result<_, _>>()?;
     check_apart(&statements)?;
     if *kind == wanted {
-        return Ok(Reading { statements, note: format!("read as a {kind}") });
+        return Ok(Reading { statements, note: format!("read as {kind}") });
     }
     // Told apart first, listed second: the first is the surer judgement, and the safer one.
     let note = match statements.len() {
-        0 => format!("read as a {kind}"),
-        n => format!("read as a {kind}: the {n} change(s) that the model lists are left out"),
+        0 => format!("read as {kind}"),
+        n => format!("read as {kind}: the {n} change(s) that the model lists are left out"),
     };
     Ok(Reading { statements: Vec::new(), note })
 }

@@ -31,7 +31,8 @@ fn a_real_server_answers_to_the_schema() {
     let path = folder.path().join("a.mcap");
     let mut recorder = Recorder::create(&path, server_config(), &MANY_CHECKPOINTS).unwrap();
     recorder.record(START, Event::InitialGraph(house())).unwrap();
-    let options = ChatOptions { timeout: Duration::from_secs(120), ..ChatOptions::default() };
+    let timeout = Duration::from_secs(120);
+    let options = ChatOptions { timeout, max_tokens: 4096, ..ChatOptions::default() };
     let chat = Chat::new(Endpoint::new(&base).unwrap(), "noise", None, options);
     recorder.set_language(Box::new(chat));
     for (n, text) in (0..).zip(SENTENCES) {

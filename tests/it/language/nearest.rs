@@ -135,3 +135,14 @@ fn things_of_a_house_are_nearest_to_their_synonyms() {
     let labels = names.map(|name| nearest.label(name).unwrap().label.clone());
     assert_eq!(labels, ["couch", "mug", "wastebasket"]);
 }
+
+/// Of twelve pairs of synonyms nine are above it ("ficus" and "plant" are not), of twelve pairs of
+/// things that stand side by side none; here are those next to it.
+#[test]
+fn the_default_threshold_lies_between_synonyms_and_neighbours() {
+    let Some(folder) = minilm() else { return };
+    let model = Embeddings::load(&folder).unwrap();
+    let near = |a: &str, b: &str| model.similarity(a, b).unwrap() >= 0.6;
+    assert!(near("duvet", "blanket") && near("coffee cup", "mug"));
+    assert!(!near("pillow", "blanket") && !near("laptop", "keyboard"));
+}
