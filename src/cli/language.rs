@@ -16,7 +16,7 @@ use crate::updater::{Config, Language};
 #[command(next_help_heading = "Language")]
 pub struct LanguageArgs {
     /// Chat server that reads sentences (OpenAI-compatible: hosted, or llama.cpp, vLLM, Ollama on
-    /// this machine), such as http://localhost:11434/v1; with --model alone, `OPENAI_BASE_URL`.
+    /// this machine), such as <http://localhost:11434/v1>; with --model alone, `OPENAI_BASE_URL`.
     /// Where it fails, the built-in interpreter reads, and the recording says so
     #[arg(long, value_name = "URL")]
     server: Option<String>,

@@ -184,7 +184,10 @@ fn tell_json(
 ) -> anyhow::Result<()> {
     let changes = changes.iter().map(ChangeDocument::of).collect();
     let interpretations = args.explain.then(|| {
-        understood.iter().map(|it| ContentDocument::of(&Event::Interpretation(it.clone()))).collect()
+        understood
+            .iter()
+            .map(|it| ContentDocument::of(&Event::Interpretation(it.clone())))
+            .collect()
     });
     print_json(args, &TellDocument { text, changes, interpretations }, out)
 }

@@ -30,7 +30,8 @@ pub fn draw(sentence: &str, statements: &[&[Span]], out: &mut Output) -> anyhow:
 fn meaning(span: &Span) -> String {
     let names = |nodes: &[NodeRef]| {
         let shown: Vec<String> = nodes.iter().take(6).map(ToString::to_string).collect();
-        let more = if nodes.len() > 6 { format!(" and {} more", nodes.len() - 6) } else { String::new() };
+        let more =
+            if nodes.len() > 6 { format!(" and {} more", nodes.len() - 6) } else { String::new() };
         shown.join(", ") + &more
     };
     let others = span.candidates.len() > span.chosen.len();
@@ -44,6 +45,7 @@ fn meaning(span: &Span) -> String {
 
 /// A line of `~` under the words of the spans.
 fn marks(sentence: &str, spans: &[Span]) -> String {
-    let marked = |at: usize| spans.iter().any(|span| (span.start as usize..span.end as usize).contains(&at));
+    let marked =
+        |at: usize| spans.iter().any(|span| (span.start as usize..span.end as usize).contains(&at));
     sentence.char_indices().map(|(at, _)| if marked(at) { '~' } else { ' ' }).collect()
 }

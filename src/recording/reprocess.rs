@@ -95,13 +95,11 @@ pub fn reprocess<E>(
             }
         }
     })?;
-    match failure {
-        Some(error) => Err(error),
-        None => {
-            again.settle(sink)?;
-            Ok(again.finish())
-        }
+    if let Some(error) = failure {
+        return Err(error);
     }
+    again.settle(sink)?;
+    Ok(again.finish())
 }
 
 /// With what a gap before event `order` ends: the number of the event after the first usable

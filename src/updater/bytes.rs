@@ -9,13 +9,17 @@ use crate::modality::human::HumanDetector;
 use crate::time::Stamp;
 
 /// Version of the bytes. A checkpoint of another version is ignored, for it is only a cache.
-const STATE_VERSION: u64 = 2;
+const STATE_VERSION: u64 = 1;
+
+/// Says that the memory of what was said follows. It is left out where there is none, so that
+/// checkpoints of recordings without language are what they always were.
+const LANGUAGE_FOLLOWS: u64 = 1;
 
 /// Why bytes are not those of an updater.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RestoreError {
     /// Written by another version of the program.
-    #[error("checkpoint bytes have version {found}, this program reads version 2")]
+    #[error("checkpoint bytes have version {found}, this program reads version 1")]
     Version {
         /// The version found.
         found: u64,
@@ -40,7 +44,11 @@ impl Updater {
         out.u64(self.at.nanos());
         let hash = self.world.write_bytes(&mut out);
         self.action.write_bytes(&mut out);
-        self.human.write_bytes(&mut out);
+        if !(self.human.is_empty() && self.action.is_simple()) {
+            out.u64(LANGUAGE_FOLLOWS);
+            self.human.write_bytes(&mut out);
+            self.action.write_parts(&mut out);
+        }
         (out.0, hash)
     }
 
@@ -49,8 +57,8 @@ impl Updater {
         let mut input = Reader(bytes);
         let (order, changes, at) = read_counters(&mut input)?;
         let world = World::read_bytes(&mut input)?;
-        let action = ActionDetector::read_bytes(&mut input)?;
-        let human = HumanDetector::read_bytes(&mut input)?;
+        let mut action = ActionDetector::read_bytes(&mut input)?;
+        let human = read_language(&mut input, &mut action)?;
         if !input.0.is_empty() {
             let what = "bytes follow the last memory";
             return Err(CanonicalError::Malformed { what }.into());
@@ -69,6 +77,21 @@ impl Updater {
         read_counters(&mut input)?;
         Ok(World::read_bytes(&mut input)?)
     }
+}
+
+fn read_language(
+    input: &mut Reader<'_>,
+    action: &mut ActionDetector,
+) -> Result<HumanDetector, CanonicalError> {
+    if input.0.is_empty() {
+        return Ok(HumanDetector::default());
+    }
+    if input.u64() != Some(LANGUAGE_FOLLOWS) {
+        return Err(CanonicalError::Malformed { what: "bytes follow the last memory" });
+    }
+    let human = HumanDetector::read_bytes(input)?;
+    action.read_parts(input)?;
+    Ok(human)
 }
 
 fn read_counters(input: &mut Reader<'_>) -> Result<(u64, u64, Stamp), RestoreError> {

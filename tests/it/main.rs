@@ -10,6 +10,7 @@
 //! - `python`: other readers agree.
 //! - `readme`: the front door tells the truth.
 //! - `fuzz_seeds`: what fuzzing starts from.
+//! - `utterances`: what people say, in numbers.
 //! - `tidy`: the shape of the sources.
 
 // Tests are read far more often than they run.
@@ -29,6 +30,7 @@ mod readme;
 mod sha256;
 mod synthetic;
 mod tidy;
+mod utterances;
 
 // What the strategies of the crate's own tests name as `crate::…`.
 use scenefold::{change, event, geometry, graph, time};

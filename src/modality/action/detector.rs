@@ -9,6 +9,9 @@ use crate::event::{Interpretation, Status, Task, TaskStatus};
 use crate::graph::{CanonicalError, NodeId, Object};
 use crate::modality::Desk;
 use crate::modality::desk::{evidence, node_ref};
+use crate::modality::human::{
+    Errand, GroundedErrand, LabelSimilarity, ground_errand, read_task, spans,
+};
 
 const TASK_TOPIC: &str = "/robot/task";
 const STATUS_TOPIC: &str = "/robot/task_status";
@@ -23,11 +26,37 @@ impl ActionDetector {
     /// Name and version, as change records carry it.
     pub const NAME: &'static str = "action/1";
 
-    /// A task was announced by event `order`.
+    /// A task was announced by event `order`. What it does not name by node is understood from
+    /// its instruction by the built-in interpreter.
     pub fn task(&mut self, desk: &mut Desk<'_>, order: u64, task: &Task) {
-        desk.interpret(interpret(desk, order, task));
+        let errands = if task.object.is_none() { read_task(&task.instruction) } else { Vec::new() };
+        self.task_of(desk, order, task, &errands, None);
+    }
+
+    /// A task was announced whose instruction asks for `errands`, in order.
+    pub fn task_of(
+        &mut self,
+        desk: &mut Desk<'_>,
+        order: u64,
+        task: &Task,
+        errands: &[Errand],
+        similarity: Option<&dyn LabelSimilarity>,
+    ) {
+        let mut parts = Vec::new();
+        for errand in errands {
+            let grounded = ground_errand(desk.world(), errand, similarity);
+            let spans = spans(desk, &grounded.trail);
+            let part = completed(task, grounded);
+            desk.interpret(Interpretation { spans, ..interpret(desk, order, &part) });
+            parts.push(part);
+        }
+        if parts.is_empty() {
+            desk.interpret(interpret(desk, order, task));
+            parts.push(task.clone());
+        }
         let memory = self.tasks.entry(task.task_id.clone()).or_default();
-        memory.announced = Some((order, task.clone()));
+        memory.announced = Some((order, parts.remove(0)));
+        memory.rest = parts;
     }
 
     /// A status was reported by event `order`.
@@ -51,6 +80,19 @@ impl ActionDetector {
 
     pub(crate) fn write_bytes(&self, out: &mut Writer) {
         memory::write(&self.tasks, out);
+    }
+
+    /// Whether no task has parts that are still to come.
+    pub(crate) fn is_simple(&self) -> bool {
+        self.tasks.values().all(|task| task.rest.is_empty())
+    }
+
+    pub(crate) fn write_parts(&self, out: &mut Writer) {
+        memory::write_rest(&self.tasks, out);
+    }
+
+    pub(crate) fn read_parts(&mut self, input: &mut Reader<'_>) -> Result<(), CanonicalError> {
+        memory::read_rest(&mut self.tasks, input)
     }
 
     pub(crate) fn read_bytes(input: &mut Reader<'_>) -> Result<Self, CanonicalError> {
@@ -118,8 +160,19 @@ impl Report<'_, '_> {
             self.desk.reject(claim, rejection);
         } else if self.desk.claim(claim).is_ok() {
             self.let_go(grasp);
+            self.next_part();
         }
         false
+    }
+
+    /// What the instruction asks for next, once this part of it is placed.
+    fn next_part(&mut self) {
+        if self.memory.in_hand.is_empty()
+            && !self.memory.rest.is_empty()
+            && let Some((_, task)) = &mut self.memory.announced
+        {
+            *task = self.memory.rest.remove(0);
+        }
     }
 
     /// Which of the things in the hand the report is about: the one it names, or the last one
@@ -248,6 +301,18 @@ impl Report<'_, '_> {
             Some(_) => Rejection::NothingNamed,
             None => Rejection::UnknownTask { task: self.status.task_id.clone() },
         }
+    }
+}
+
+/// The task with what its planner left open.
+fn completed(task: &Task, errand: GroundedErrand) -> Task {
+    let told = task.target_room.is_some() || task.support.is_some();
+    Task {
+        object: task.object.clone().or(errand.object),
+        source_room: task.source_room.clone().or(errand.source_room),
+        target_room: task.target_room.clone().or(errand.target_room.filter(|_| !told)),
+        support: task.support.clone().or(errand.support.filter(|_| !told)),
+        ..task.clone()
     }
 }
 

@@ -23,6 +23,8 @@ pub(super) enum Grasp {
 pub(super) struct TaskMemory {
     /// What was announced, and the number of the event that did.
     pub announced: Option<(u64, Task)>,
+    /// What the instruction asks for after that, in order.
+    pub rest: Vec<Task>,
     /// In the order picked.
     pub in_hand: Vec<Grasp>,
 }
@@ -36,13 +38,43 @@ pub(super) fn write(tasks: &Tasks, out: &mut Writer) {
         out.text(id);
         out.option(task.announced.as_ref(), |out, (order, task)| {
             out.u64(*order);
-            out.text(&task.instruction);
-            for node in [&task.object, &task.source_room, &task.target_room, &task.support] {
-                out.option(node.as_ref(), write_ref);
-            }
+            write_task(out, task);
         });
         out.u64(task.in_hand.len() as u64);
         task.in_hand.iter().for_each(|grasp| write_grasp(grasp, out));
+    }
+}
+
+/// Writes what tasks ask for after what they are at, which follows everything else.
+pub(super) fn write_rest(tasks: &Tasks, out: &mut Writer) {
+    let several = || tasks.iter().filter(|(_, task)| !task.rest.is_empty());
+    out.u64(several().count() as u64);
+    for (id, task) in several() {
+        out.text(id);
+        out.u64(task.rest.len() as u64);
+        task.rest.iter().for_each(|task| write_task(out, task));
+    }
+}
+
+pub(super) fn read_rest(tasks: &mut Tasks, input: &mut Reader<'_>) -> Result<(), CanonicalError> {
+    let malformed = CanonicalError::Malformed { what: "memory of the parts of tasks" };
+    try_read_rest(tasks, input).ok_or(malformed)
+}
+
+fn try_read_rest(tasks: &mut Tasks, input: &mut Reader<'_>) -> Option<()> {
+    for _ in 0..input.u64()? {
+        let id = input.text()?.to_owned();
+        let count = input.u64()?;
+        let rest = (0..count).map(|_| read_task(input, &id)).collect::<Option<_>>()?;
+        tasks.get_mut(&id)?.rest = rest;
+    }
+    Some(())
+}
+
+fn write_task(out: &mut Writer, task: &Task) {
+    out.text(&task.instruction);
+    for node in [&task.object, &task.source_room, &task.target_room, &task.support] {
+        out.option(node.as_ref(), write_ref);
     }
 }
 
@@ -78,21 +110,21 @@ fn read_tasks(input: &mut Reader<'_>) -> Option<Tasks> {
     let mut tasks = Tasks::new();
     for _ in 0..count {
         let task_id = input.text()?.to_owned();
-        let announced = input.option(|input| read_task(input, &task_id))?;
+        let announced = input.option(|input| Some((input.u64()?, read_task(input, &task_id)?)))?;
+        let rest = Vec::new();
         let grasps = input.u64()?;
         let in_hand = (0..grasps).map(|_| read_grasp(input)).collect::<Option<_>>()?;
-        tasks.insert(task_id, TaskMemory { announced, in_hand });
+        tasks.insert(task_id, TaskMemory { announced, rest, in_hand });
     }
     Some(tasks)
 }
 
-fn read_task(input: &mut Reader<'_>, task_id: &str) -> Option<(u64, Task)> {
-    let order = input.u64()?;
+fn read_task(input: &mut Reader<'_>, task_id: &str) -> Option<Task> {
     let instruction = input.text()?.to_owned();
     let mut node = || input.option(read_ref);
     let (object, source_room, target_room, support) = (node()?, node()?, node()?, node()?);
     let task_id = task_id.to_owned();
-    Some((order, Task { task_id, instruction, object, source_room, target_room, support }))
+    Some(Task { task_id, instruction, object, source_room, target_room, support })
 }
 
 fn read_ref(input: &mut Reader<'_>) -> Option<NodeRef> {

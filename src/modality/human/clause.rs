@@ -3,7 +3,7 @@
 use super::lemma::Form;
 use super::lexicon::{Frame, Lexicon, Preposition};
 use super::phrase::{Phrase, Words};
-use super::reading::{Quantity, When};
+use super::reading::When;
 use super::times::{self, TimeSpan};
 use super::token::Sentence;
 use crate::time::Stamp;
@@ -186,10 +186,15 @@ impl Parser<'_> {
         let frame = clause.verb.as_ref().map(|verb| verb.frame);
         let speaker = matches!(&clause.subject, Subject::Pronoun(who) if who == "i");
         match frame {
-            Some(Frame::Belief) if speaker && clause.unreal.is_none() => self.belief = true,
+            Some(Frame::Belief) if speaker && clause.unreal.is_none() && !clause.past => {
+                self.belief = true;
+            }
             // "I told you that …" is still the speaker's own report.
             Some(Frame::Report) if speaker && clause.verb.as_ref().is_some_and(|it| matches!(it.lemma.as_str(), "tell" | "say" | "mention")) => {}
+            // "I thought" tells of an error.
             Some(Frame::Report | Frame::Belief) => self.reported = true,
+            // "I hope the keys are …".
+            Some(Frame::Wish) => self.reported |= tokens.get(to).is_some_and(|next| next.word && !self.words.is_in(&self.words.lexicon.words.conjunctions, to)),
             _ => {}
         }
         self.clauses.push(clause);
@@ -222,7 +227,6 @@ impl Parser<'_> {
             if clause.places.is_empty() && self.words.verb(next).is_empty()
                 && let Some((place, after)) = self.place(next)
                 && !matches!(place.preposition.as_str(), "like")
-                && after < self.words.tokens.len()
             {
                 clause.places.push(place);
                 next = after;
@@ -255,8 +259,16 @@ impl Parser<'_> {
             return Some(at + 1);
         }
         // A verb without a subject: "put", unless it is a noun here.
-        let list = self.list(at, true);
-        let (things, next) = list?;
+        let (mut things, mut next) = self.list(at, true)?;
+        // "the mug on the desk is …": the place tells which.
+        if let (Some((place, after)), Some(last)) = (self.place(next), things.last_mut())
+            && place.role != Preposition::Other
+            && self.verb_follows(after)
+            && !self.verb_follows(next)
+        {
+            last.mention.at.extend(place.things.into_iter().map(|it| it.mention));
+            next = after;
+        }
         if !self.verb_follows(next) && self.words.has_form(at, &[Form::Base, Form::Past]) {
             return None;
         }
@@ -349,6 +361,8 @@ impl Parser<'_> {
                 next += 1;
             } else if self.words.is_in(&lists.be, next) {
                 next += 1;
+            } else if self.words.is_in(&lists.gone_words, next) && !perfect && (be || self.words.word(next) == "gone") {
+                break;
             } else if !self.words.verb(next).is_empty() && !(be && self.noun_after_be(next)) {
                 self.take_verb(next, be, perfect, &mut group);
                 break;
@@ -447,7 +461,13 @@ impl Parser<'_> {
     /// "and the vase to the bedroom": the verb is that of the clause before; or a headline:
     /// "No more milk", "New plant in the bedroom".
     fn without_verb(&mut self, start: usize, next: usize, mut clause: Clause) -> usize {
-        let Subject::Things(things) = std::mem::take(&mut clause.subject) else { return next.max(start + 1) };
+        let Subject::Things(things) = std::mem::take(&mut clause.subject) else {
+            // "no, in the bathroom": a place alone.
+            if clause.places.is_empty() || next < self.words.tokens.len() {
+                return next.max(start + 1);
+            }
+            return self.finish(start.min(next - 1), next, clause);
+        };
         let before = self.clauses.last().cloned();
         let mut to = next;
         clause.objects = things;
@@ -485,7 +505,9 @@ impl Parser<'_> {
                 joined = true;
                 after += 3;
             }
-            let Some((phrase, end)) = self.words.noun_phrase(after).filter(|_| joined) else { break };
+            let verb = self.words.has_form(after, &[Form::Base])
+                && (self.words.preposition(after + 1).is_some() || self.words.noun_starts(after + 1) || self.words.is_plain(after + 1));
+            let Some((phrase, end)) = self.words.noun_phrase(after).filter(|_| joined && !verb) else { break };
             if phrase.pronoun && !subject && self.verb_follows(end) {
                 break;
             }
@@ -705,10 +727,5 @@ impl Clause {
         };
         places.clone().any(|it| home(it) || old_home(it) || (it.theirs && outsider))
             || things.chain(subject).chain(places).any(their)
-    }
-
-    /// How many were meant by a list: used where a verb needs two.
-    pub fn is_pair(&self) -> bool {
-        self.objects.len() == 2 || (self.objects.len() == 1 && self.objects[0].mention.quantity == Quantity::Count(2))
     }
 }

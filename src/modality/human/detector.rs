@@ -77,8 +77,11 @@ impl HumanDetector {
         let fresh = at.seconds_since(self.memory.said_at) <= CONTEXT_S;
         let context = if fresh { self.antecedents(world) } else { Vec::new() };
         let understood = report::read(text, at, &context);
-        let corrects = fresh && !self.memory.text.is_empty();
-        (understood.reading, understood.correction.filter(|_| corrects))
+        let corrects = |correction: &Correction| {
+            let answered = correction.answer && !self.memory.done.is_empty();
+            fresh && !self.memory.text.is_empty() && !answered
+        };
+        (understood.reading, understood.correction.filter(corrects))
     }
 
     /// Whether `text` corrects what was said before: that needs the memory of it, which models do
@@ -193,7 +196,9 @@ impl HumanDetector {
         if let Some(object) = &correction.object {
             let one = matches!(object.noun.as_str(), "one" | "ones" | "other");
             let noun = if one { last.object.noun.clone() } else { object.noun.clone() };
-            statement.object = Mention { noun, definite: last.object.definite, ..object.clone() };
+            let at = [object.at.clone(), statement.object.at].concat();
+            let definite = last.object.definite;
+            statement.object = Mention { noun, definite, at, ..object.clone() };
         } else if let Some(same) = done.last() {
             statement.object.id = Some(same.id.to_string());
         }
@@ -238,6 +243,11 @@ impl HumanDetector {
         };
         // The record says what became of it either way.
         let _ = desk.claim(claim);
+    }
+
+    /// Whether nothing is remembered.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.memory == Memory::default()
     }
 
     pub(crate) fn write_bytes(&self, out: &mut Writer) {

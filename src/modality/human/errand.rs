@@ -80,6 +80,13 @@ pub fn read_task(text: &str) -> Vec<Errand> {
 fn imperative(lexicon: &Lexicon, mut sentence: Sentence) -> Sentence {
     let words = &lexicon.words;
     let tokens = &mut sentence.tokens;
+    // "John, can you …", "Robot go …".
+    let called = tokens.len() > 2 && !lexicon.forms.contains_key(&tokens[0].text)
+        && matches!(tokens[1].text.as_str(), "can" | "could" | "would" | "will" | "please" | "go" | ",")
+        && !words.subjects.contains(&tokens[0].text);
+    if called {
+        tokens.remove(0);
+    }
     let is_verb = |text: &str| lexicon.forms.contains_key(text) && !words.adjectives.contains(text);
     let wants = |text: &str| matches!(text, "want" | "need" | "would" | "like" | "could" | "can" | "will" | "should" | "must" | "to" | "please" | "robot" | "you" | "your" | "job" | "is" | "task" | "have" | "i" | "'d" | "kindly" | "just" | "now" | "go" | "and" | "then" | "love");
     let polite = tokens.iter().take_while(|token| !token.word || wants(&token.text)).count();
@@ -151,22 +158,40 @@ impl Reader<'_> {
             }
             return;
         }
+        let whole = matches!(frame, Frame::Place | Frame::Store);
+        let strong = strong.filter(|n| !whole || clause.places[*n].preposition != "to");
         let from = strong.unwrap_or(if puts { 0 } else { clause.places.len() });
         let goal = |n: usize, place: &Place| puts && n >= from && matches!(place.role, Preposition::Goal(_) | Preposition::Near);
         let mut target: Option<Mention> = None;
         let mut source = Vec::new();
+        let (mut near, mut under) = (false, false);
         for (n, place) in clause.places.iter().enumerate() {
             for thing in place.things.iter().take(1) {
                 let mention = thing.mention.clone();
                 if goal(n, place) && !thing.pronoun && !self.is_person(thing) {
+                    let on = place.role != Preposition::Near && !self.is_room(&mention);
                     match &mut target {
-                        None => target = Some(mention),
+                        None => {
+                            near = place.role == Preposition::Near;
+                            under = near && matches!(place.preposition.as_str(), "under" | "underneath" | "below" | "beneath");
+                            target = Some(mention);
+                        }
+                        // "next to the remote on the sofa".
+                        Some(first) if near && on => {
+                            near = false;
+                            under = false;
+                            *first = mention;
+                        }
                         Some(first) => first.at.push(mention),
                     }
                 } else if place.role != Preposition::Other && !goal(n, place) {
                     source.push(mention);
                 }
             }
+        }
+        // What is under a sink is mostly in the cabinet there.
+        if let Some(sink) = target.as_mut().filter(|it| under && it.noun.ends_with("sink")) {
+            "cabinet".clone_into(&mut sink.noun);
         }
         if frame == Frame::Toss || frame == Frame::Gone && target.is_none() && clause.verb.is_some() {
             let bin = Mention { noun: "trash can".to_owned(), ..Mention::default() };
@@ -175,9 +200,20 @@ impl Reader<'_> {
         self.errand(objects, source, target);
     }
 
+    fn is_room(&self, mention: &Mention) -> bool {
+        self.lexicon.words.rooms.contains(mention.noun.rsplit(' ').next().unwrap_or_default()) || mention.noun.ends_with("room")
+    }
+
+    fn alike(&self, a: &str, b: &str) -> bool {
+        let (a, b) = (Name::new(a), Name::new(b));
+        let names = &self.lexicon.names;
+        names.compare(&a, &b).or_else(|| names.compare(&b, &a)).is_some()
+    }
+
     fn is_person(&self, phrase: &Phrase) -> bool {
         let head = phrase.mention.noun.rsplit(' ').next().unwrap_or_default();
         self.lexicon.words.persons.contains(head) || self.lexicon.words.beings.contains(head)
+            && !phrase.mention.adjectives.iter().any(|it| self.lexicon.words.colours.contains(it))
     }
 
     /// What is to be taken: the second object where the first is who it is for.
@@ -202,7 +238,7 @@ impl Reader<'_> {
         }
         // "take the mug and the mug …": the same thing again goes on with its errand.
         let same = !self.done
-            && self.errands.last().is_some_and(|last| last.target.is_none() && last.object.as_ref().is_some_and(|it| it.noun == objects[0].mention.noun));
+            && self.errands.last().is_some_and(|last| last.target.is_none() && last.object.as_ref().is_some_and(|it| self.alike(&it.noun, &objects[0].mention.noun)));
         if same {
             if let Some(last) = self.errands.last_mut() {
                 last.target = target;
@@ -328,6 +364,7 @@ impl Grounder<'_> {
         let with_adjectives = Name::new(&format!("{} {}", mention.adjectives.join(" "), mention.noun));
         let names = &lexicon().names;
         let typical = names.typical(&with_adjectives, &label).or_else(|| names.typical(&wanted, &label));
+        let typical = typical.or_else(|| names.often(&with_adjectives, &label)).or_else(|| names.often(&wanted, &label));
         (away, typical.unwrap_or(usize::MAX), id)
     }
 }

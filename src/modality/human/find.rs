@@ -15,6 +15,11 @@ pub trait LabelSimilarity {
     fn nearest(&self, noun: &str, labels: &[&str]) -> Option<(usize, f64)>;
 }
 
+/// What is called by what it holds.
+const CONTAINERS: [&str; 12] = [
+    "bottle", "can", "box", "bag", "jar", "pack", "packet", "carton", "bar", "roll", "tube", "plant",
+];
+
 /// A node that may be meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Candidate {
@@ -70,12 +75,17 @@ impl<'a> Wanted<'a> {
         let with_full = if self.adjectives.is_empty() { None } else { names.compare(&said, &full).filter(|it| *it < Closeness::Compound(0)) };
         let closeness = with_full.or(with_core).or_else(|| names.compare(&self.noun, &full));
         let closeness = closeness.or_else(|| self.part(&core).then_some(Closeness::Part));
-        let typical = || {
-            let said = names.typical(&said, &full);
-            said.or_else(|| names.typical(&self.noun, &full)).map(Closeness::Typical)
-        };
-        let closeness = closeness.or_else(|| guess.then(typical).flatten())?;
+        let closeness = if guess { self.usual(&said, &full, closeness) } else { closeness }?;
         Some((closeness, missing))
+    }
+
+    /// What people often mean by the words, where nothing closer is known.
+    fn usual(&self, said: &Name, label: &Name, known: Option<Closeness>) -> Option<Closeness> {
+        let names = &self.lexicon.names;
+        let typical = names.typical(said, label).or_else(|| names.typical(&self.noun, label));
+        let typical = typical.map(Closeness::Typical);
+        let often = || names.often(said, label).or_else(|| names.often(&self.noun, label)).map(Closeness::Often);
+        [known, typical].into_iter().flatten().min().or_else(often)
     }
 
     /// The label without the adjectives it begins with.
@@ -101,7 +111,15 @@ impl<'a> Wanted<'a> {
         let words = &self.lexicon.words;
         let Some((last, before)) = self.noun.words.split_last() else { return false };
         let part = words.parts.contains(last) || words.partitives.contains(last);
-        let held = matches!(last.as_str(), "bottle" | "can" | "box" | "bag" | "jar" | "pack" | "packet" | "carton" | "bar" | "roll" | "tube" | "plant");
+        let held = CONTAINERS.contains(&last.as_str());
+        // "the soap" of the soap bottle.
+        if let Some((container, what)) = label.words.split_last()
+            && !what.is_empty()
+            && CONTAINERS.contains(&container.as_str())
+            && Name::of(what.to_vec()).key == self.noun.key
+        {
+            return true;
+        }
         if before.is_empty() || !(part || held) {
             return false;
         }

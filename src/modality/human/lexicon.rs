@@ -105,10 +105,10 @@ macro_rules! word_lists {
 word_lists!(
     determiners, indefinite, possessives, subjects, objects, persons, be, be_past, have, r#do, modals,
     negations, conditionals, guesses, habits, subordinators, conjunctions, questions, interjections,
-    openers, adverbs, particles, places_adverbs, goal, strong_goal, near, source,
-    other_prepositions, companions, adjectives, colours, sizes, novelty, nouns_too, foreign,
+    adverbs, particles, places_adverbs, goal, strong_goal, near, source,
+    other_prepositions, adjectives, colours, sizes, novelty, nouns_too, foreign,
     outsiders, elsewhere, other_homes, away_places, waste, rooms, partitives, parts, pluralia,
-    gone_words, beings, abstract_nouns, light_objects,
+    gone_words, beings, abstract_nouns, light_objects, consumables, openers,
 );
 
 /// Expressions of time.
@@ -202,6 +202,9 @@ fn forms(verbs: &[Verb]) -> BTreeMap<String, Vec<VerbForm>> {
         for (word, form) in all {
             forms.entry(word).or_default().push(VerbForm { verb, form });
         }
+    }
+    if let Some(verb) = verbs.iter().position(|it| it.verb == "have") {
+        forms.entry("has".to_owned()).or_default().push(VerbForm { verb, form: Form::Present });
     }
     for (word, regular) in [("burned", "burn"), ("broke", "break"), ("dreamed", "dream"), ("hanged", "hang")] {
         if let Some(verb) = verbs.iter().position(|it| it.verb == regular) {

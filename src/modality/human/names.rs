@@ -67,14 +67,16 @@ pub(super) enum Closeness {
     Same,
     /// Words that mean the same.
     Synonym,
+    /// What people who say just this often mean, the most usual first; for tasks only.
+    Typical(usize),
     /// The same head: "remote" and "tv remote"; how many words of the mention are left out.
     Compound(usize),
     /// One is a kind of the other: "fruit" and "apple".
     Kind,
     /// Part of it, or what it holds: "toilet tank", "apple slice".
     Part,
-    /// What people who name this often mean; for tasks only.
-    Typical(usize),
+    /// What the head of it is often used for; for tasks only.
+    Often(usize),
 }
 
 impl Closeness {
@@ -86,7 +88,7 @@ impl Closeness {
             Self::Compound(_) => "the same head of a compound",
             Self::Kind => "a kind of it",
             Self::Part => "a part of it",
-            Self::Typical(_) => "what is often meant by it",
+            Self::Typical(_) | Self::Often(_) => "what is often meant by it",
         }
     }
 }
@@ -180,9 +182,18 @@ impl Names {
         within(mention, label) || within(label, mention)
     }
 
-    /// Where `label` stands among what people often mean by `mention`.
+    /// Where `label` stands among what people often mean by exactly `mention`.
     pub fn typical(&self, mention: &Name, label: &Name) -> Option<usize> {
-        let of = (0..mention.words.len()).find_map(|n| self.typical.get(&mention.suffix(n)))?;
+        self.usual(&mention.key, label)
+    }
+
+    /// The same for the head of `mention`, with as many words before it as are known.
+    pub fn often(&self, mention: &Name, label: &Name) -> Option<usize> {
+        (1..mention.words.len()).find_map(|n| self.usual(&mention.suffix(n), label))
+    }
+
+    fn usual(&self, key: &str, label: &Name) -> Option<usize> {
+        let of = self.typical.get(key)?;
         of.iter().position(|class| self.alike(class, &label.key) || label.key.ends_with(class.as_str()))
     }
 }

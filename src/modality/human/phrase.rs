@@ -80,7 +80,7 @@ impl<'a> Words<'a> {
         ];
         lists.iter().any(|list| self.is_in(list, at))
             || matches!(self.word(at), "me" | "us" | "him" | "them" | "these" | "those" | "'s")
-            || self.lexicon.prepositions.contains_key(self.word(at))
+            || self.preposition(at).is_some()
             || self.is_in(&words.particles, at)
             || self.is_in(&words.interjections, at)
     }
@@ -104,6 +104,12 @@ impl<'a> Words<'a> {
         }
         if matches!(self.word(at), "one" | "ones") {
             return words > 0;
+        }
+        if self.word(at) == "can" && words > 0 && self.verb(at + 1).is_empty() {
+            return !self.is_in(&lists.subjects, at + 1) && !self.is_in(&lists.be, at + 1);
+        }
+        if words == 0 && self.is_in(&lists.parts, at) && self.word(at + 1) == "of" {
+            return true;
         }
         if self.is_function_word(at) {
             return false;
@@ -161,7 +167,7 @@ impl<'a> Words<'a> {
         let (mut next, determined) = self.determiners(at, &mut phrase);
         phrase.bare = !determined;
         let first = next;
-        while self.is_nounish(next, determined, next - first) {
+        while self.is_nounish(next, determined, next - first) || self.is_comma_of_adjectives(first, next) {
             next += 1;
         }
         if next == first {
@@ -175,6 +181,12 @@ impl<'a> Words<'a> {
         let next = self.of(&mut phrase, next, depth);
         let next = self.relative(&mut phrase, next);
         Some((phrase, next))
+    }
+
+    /// "the round, black table".
+    fn is_comma_of_adjectives(&self, first: usize, at: usize) -> bool {
+        let adjective = |n: usize| self.is_in(&self.lexicon.words.adjectives, n);
+        self.word(at) == "," && at > first && adjective(at - 1) && adjective(at + 1) && self.is_plain(at + 2)
     }
 
     fn pronoun(&self, at: usize) -> Option<(Phrase, usize)> {
@@ -256,8 +268,12 @@ impl<'a> Words<'a> {
     fn name(&self, from: usize, to: usize, phrase: &mut Phrase) {
         let words = &self.lexicon.words;
         let mut first = from;
-        while first + 1 < to && (self.is_in(&words.adjectives, first) || self.is_past_adjective(first)) {
+        while first + 1 < to && (self.is_in(&words.adjectives, first) || self.is_past_adjective(first) || self.word(first) == ",") {
             let word = self.word(first);
+            if word == "," {
+                first += 1;
+                continue;
+            }
             if words.novelty.contains(word) {
                 phrase.novel = true;
                 phrase.mention.definite = false;

@@ -1,7 +1,7 @@
 //! Label embeddings: which known label is nearest to a name, by a sentence-transformers model.
 //!
 //! Reads a folder as sentence-transformers saves it: `config.json`, `model.safetensors`,
-//! `vocab.txt` or `tokenizer.json`, `1_Pooling/config.json`. The architecture is BERT (MiniLM,
+//! `vocab.txt` or `tokenizer.json`, `1_Pooling/config.json`. The architecture is BERT (`MiniLM`,
 //! BGE, GTE, E5 and many more); others are refused by name.
 //!
 //! # Why it is written out
@@ -52,7 +52,7 @@ pub struct EmbedError {
 }
 
 impl EmbedError {
-    fn new(path: &Path, what: impl ToString) -> Self {
+    fn new(path: &Path, what: impl std::fmt::Display) -> Self {
         Self { path: path.to_owned(), what: what.to_string() }
     }
 }

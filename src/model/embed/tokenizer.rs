@@ -1,4 +1,4 @@
-//! WordPiece: a text to the numbers of its pieces.
+//! `WordPiece`: a text to the numbers of its pieces.
 //!
 //! Lower case and without accents where the model wants that; split at white space, punctuation
 //! and around each Chinese character; then for each word the longest piece of the vocabulary
@@ -106,9 +106,8 @@ fn vocabulary(folder: &Path) -> Result<(std::path::PathBuf, BTreeMap<String, u32
     let document = json(&path)?.ok_or_else(|| {
         EmbedError::new(folder, "there is neither vocab.txt nor tokenizer.json in it")
     })?;
-    let entries = match document.pointer("/model/vocab") {
-        Some(serde_json::Value::Object(entries)) => entries,
-        _ => return Err(EmbedError::new(&path, "its model has no vocabulary of word pieces")),
+    let Some(serde_json::Value::Object(entries)) = document.pointer("/model/vocab") else {
+        return Err(EmbedError::new(&path, "its model has no vocabulary of word pieces"));
     };
     let number = |(piece, n): (&String, &serde_json::Value)| {
         Some((piece.clone(), u32::try_from(n.as_u64()?).ok()?))

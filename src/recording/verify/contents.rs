@@ -16,6 +16,7 @@ use crate::recording::reprocess::{Again, ReprocessError};
 use crate::updater::Config;
 
 /// Where what follows goes when it is only compared.
+#[allow(clippy::unnecessary_wraps)]
 fn nowhere(_: &Logged, _: &[Logged]) -> Result<(), Infallible> {
     Ok(())
 }
