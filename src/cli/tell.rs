@@ -15,7 +15,7 @@ use crate::change::{ChangeRecord, World};
 use crate::document::{ChangeDocument, ContentDocument, RefDocument};
 use crate::event::{Event, Interpretation, Utterance};
 use crate::modality::human::{
-    Errand, GroundedErrand, LanguageModel, errands, ground_errand, parse_task, read_task, task_request,
+    Errand, GroundedErrand, LanguageModel, errands, ground_errand, interpret, parse_task, read_task, task_request,
 };
 use crate::model::Models;
 use crate::recording::{Recorder, RecorderOptions};
@@ -170,7 +170,7 @@ fn one(
     if args.json {
         tell_json(args, sentence, &changes, &understood, out)?;
     } else {
-        tell_text(args, sentence, &changes, &understood, out)?;
+        tell_text(args, (at, sentence), &changes, &understood, out)?;
     }
     Ok(if rejected { Outcome::Findings } else { Outcome::Clean })
 }
@@ -198,7 +198,7 @@ fn print_json(args: &Tell, document: &impl Serialize, out: &mut Output) -> anyho
 
 fn tell_text(
     args: &Tell,
-    sentence: &str,
+    (at, sentence): (Stamp, &str),
     changes: &[ChangeRecord],
     understood: &[Interpretation],
     out: &mut Output,
@@ -211,8 +211,9 @@ fn tell_text(
         super::log::print(record, out)?;
     }
     if changes.is_empty() {
-        let note = understood.iter().map(|it| it.note.as_str()).find(|note| !note.is_empty());
-        writeln!(out, "changes nothing: {}", note.unwrap_or("it is known already"))?;
+        let reading = interpret(sentence, at);
+        let why = if reading.statements.is_empty() { &reading.note } else { "it is known already" };
+        writeln!(out, "changes nothing: {why}")?;
     }
     if args.explain {
         let spans: Vec<_> = understood.iter().map(|it| it.spans.as_slice()).collect();

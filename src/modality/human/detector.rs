@@ -115,8 +115,12 @@ impl HumanDetector {
     ) {
         let rests_on = said.evidence();
         if reading.statements.is_empty() {
-            let note = reading.note.clone();
-            desk.interpret(Interpretation { note, ..Interpretation::of(rests_on[0].clone()) });
+            // What the built-in interpreter finds to say nothing, it will find again; what a
+            // model made of it is worth a record.
+            if detector != Self::NAME || said.instead.is_some() {
+                let note = reading.note.clone();
+                desk.interpret(Interpretation { note, ..Interpretation::of(rests_on[0].clone()) });
+            }
             return;
         }
         let config = self.config(said, detector, rests_on);

@@ -150,7 +150,7 @@ impl Check<'_> {
     }
 
     /// Runs the detectors over the last input, whose last model output was read.
-    fn settle(&mut self, segment: &Segment) {
+    pub(super) fn settle(&mut self, segment: &Segment) {
         self.run_again(segment, |again| again.settle(&mut nowhere));
     }
 

@@ -20,7 +20,7 @@ fn the_embedded_contracts_change_only_on_purpose() {
             format!("{} {} {}", it.name, it.data.len(), &StateHash::of(it.data).to_string()[..16])
         })
         .collect();
-    insta::assert_snapshot!(lines.join("\n"), @r"
+    insta::assert_snapshot!(lines.join("\n"), @"
     scenefold.v1.GraphState 1482 63ec19f97de315f6
     scenefold.v1.Utterance 113 8bab71bb3200e75b
     scenefold.v1.Task 1368 5ff4490167c50655
