@@ -10,9 +10,10 @@
 //! used, so that replay and reprocessing need none of this.
 //!
 //! # Why this HTTP client
-//! `ureq` blocks, as the recorder does, and brings 19 crates, TLS in Rust included. The typed
-//! client `async-openai` needs an executor and brings over a hundred for the one request that is
-//! made here, and types for an API of which servers on one's own machine speak dialects.
+//! `ureq` blocks, as the recorder does, and brings some twenty crates, TLS in Rust included. The
+//! typed client `async-openai` needs an executor and an HTTP stack on top of it for the one
+//! request that is made here, and has types for an API of which servers on one's own machine
+//! speak dialects.
 
 pub mod chat;
 #[cfg(feature = "embeddings")]
