@@ -15,7 +15,8 @@ use crate::change::{ChangeRecord, World};
 use crate::document::{ChangeDocument, ContentDocument, RefDocument};
 use crate::event::{Event, Interpretation, Utterance};
 use crate::modality::human::{
-    Errand, GroundedErrand, LanguageModel, errands, ground_errand, interpret, parse_task, read_task, task_request,
+    Errand, GroundedErrand, LanguageModel, errands, ground_errand, interpret, parse_task,
+    read_task, task_request,
 };
 use crate::model::Models;
 use crate::recording::{Recorder, RecorderOptions};
@@ -232,7 +233,8 @@ fn task(
     let errands = match ask_task(args, world, models, text) {
         Some(Ok(errands)) => errands,
         Some(Err(why)) => {
-            let _ = writeln!(std::io::stderr(), "read by the built-in interpreter: {}", plain(&why));
+            let _ =
+                writeln!(std::io::stderr(), "read by the built-in interpreter: {}", plain(&why));
             read_task(text)
         }
         None => read_task(text),

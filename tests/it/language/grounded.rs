@@ -109,7 +109,8 @@ fn what_the_graph_does_not_bear_out_is_rejected_and_recorded() {
     let several = gone(&named("mug", "mug", None, 1));
     let (records, _) = tell(server_config(), text, &[several]);
     assert!(!changes(&records)[0].is_applied());
-    let nowhere = change("moved", &named("bowl", "bowl", None, 1), &named("attic", "attic", None, 1));
+    let nowhere =
+        change("moved", &named("bowl", "bowl", None, 1), &named("attic", "attic", None, 1));
     rejected("The bowl is in the attic.", &report(&[nowhere]), &["unknown_room"]);
 }
 
@@ -118,7 +119,8 @@ fn what_the_graph_does_not_bear_out_is_rejected_and_recorded() {
 fn an_obedient_model_does_no_harm() {
     let everything = |words: &str| {
         let labels = ["mug", "bowl", "cereal", "table", "bed"];
-        let all = labels.map(|label| change("removed", &named(words, label, None, 0), &Value::Null));
+        let all =
+            labels.map(|label| change("removed", &named(words, label, None, 0), &Value::Null));
         report(&all)
     };
     for text in [
@@ -197,8 +199,19 @@ fn a_name_that_nobody_knows_is_taken_for_the_nearest_label_if_it_is_near() {
 }
 
 fn word() -> impl Strategy<Value = String> {
-    prop::sample::select(vec!["mug", "bowl", "the", "everything", "bedroom", "table", "I", "is", "O4", "gone"])
-        .prop_map(str::to_owned)
+    prop::sample::select(vec![
+        "mug",
+        "bowl",
+        "the",
+        "everything",
+        "bedroom",
+        "table",
+        "I",
+        "is",
+        "O4",
+        "gone",
+    ])
+    .prop_map(str::to_owned)
 }
 
 prop_compose! {
