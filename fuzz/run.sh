@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 seconds="${1:-60}"
 command -v cargo-fuzz >/dev/null || cargo install cargo-fuzz --locked --quiet
 SCENEFOLD_FUZZ_SEEDS="$PWD/fuzz/corpus" cargo test --quiet --test it fuzz_seeds
-for target in reader wire importers updater_bytes expr_at; do
+for target in reader wire importers updater_bytes expr_at model_reply; do
   echo "-- $target"
   cargo fuzz run --sanitizer none "$target" -- -seed="${SCENEFOLD_FUZZ_SEED:-1}" -max_total_time="$seconds" -timeout=10 \
     -rss_limit_mb=1024 -max_len=65536 -print_final_stats=1 2>&1 \

@@ -7,12 +7,13 @@ use std::path::Path;
 use std::{env, fs};
 
 /// Contracts of the channels, by file stem; each holds one channel message.
-const CHANNELS: [&str; 9] = [
+const CHANNELS: [&str; 10] = [
     "graph_state",
     "utterance",
     "task",
     "task_status",
     "tick",
+    "language_reply",
     "interpretation",
     "change_record",
     "transaction",

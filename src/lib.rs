@@ -29,6 +29,7 @@
 //! | [`interchange`] | scenes of others in and out: parsers and printers | no |
 //! | [`container`] | MCAP files as raw messages, whole or damaged | yes |
 //! | [`recording`] | write, replay, seek, verify, recover, reprocess | yes |
+//! | [`model`] | language models: a chat server | yes |
 //! | [`simulation`] | a house, its people, its robot and what the camera sees | at the edge |
 //! | [`snapshot`] | a recording as text, for regression tests | no |
 //! | [`view`] | floor plans and diagrams: SVG, PNG | no |
@@ -142,6 +143,7 @@ core_modules! {
 }
 pub mod cli;
 pub mod container;
+pub mod model;
 pub mod recording;
 pub mod simulation;
 pub mod snapshot;

@@ -14,7 +14,9 @@ use crate::change::{
     Action, Cause, ChangeRecord, Claim, Departure, EvidenceRef, Modality, NodeRef, Occurred,
     Outcome, Primitive, Sighting, Step, Transaction, World,
 };
-use crate::event::{Interpretation, Span, Status, Task, TaskStatus, Topic, Utterance};
+use crate::event::{
+    Interpretation, LanguageReply, Span, Status, Task, TaskStatus, Topic, Utterance,
+};
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, Layer, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
 use crate::time::Stamp;
@@ -353,6 +355,19 @@ prop_compose! {
         support in option::of(node_ref()),
     ) -> TaskStatus {
         TaskStatus { task_id, status, pose, object, room, support }
+    }
+}
+
+prop_compose! {
+    /// Any reply of a model.
+    pub fn language_reply()(
+        of in evidence_ref(), back_end in "[a-z]{1,8}/[0-9]", model in ".{0,12}",
+        prompt in "[a-z]{0,8}/[0-9]", request in ".{0,60}",
+        answer in proptest::result::maybe_ok(".{0,60}", ".{0,20}"),
+        attempts: u32, latency_nanos: u64,
+    ) -> LanguageReply {
+        let (back_end, prompt) = (back_end.into(), prompt.into());
+        LanguageReply { of, back_end, model, prompt, request, answer, attempts, latency_nanos }
     }
 }
 

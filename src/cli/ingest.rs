@@ -9,6 +9,7 @@ use anyhow::Context;
 use clap::ValueEnum;
 use serde::Serialize;
 
+use super::language::LanguageArgs;
 use super::output::Output;
 use super::replay::state_at;
 use super::source::{self, is_mcap, text};
@@ -36,6 +37,7 @@ A line that is refused is answered by {\"line\":…,\"error\":…} and changes n
 Examples:
   scenefold ingest --graph scene.json -o live.mcap < inputs.ndjson
   robot_bridge | scenefold ingest -o segments/ --sync every      a folder can be gone on with
+  scenefold ingest -o live.mcap --server http://localhost:11434/v1 --model qwen2.5 < inputs.ndjson
 Exits with 3 if a line was refused or a change rejected.")]
 pub struct Ingest {
     /// New recording, or a folder of segments to go on with
@@ -54,6 +56,8 @@ pub struct Ingest {
     /// Configuration (JSON) of a new recording
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    #[command(flatten)]
+    language: LanguageArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -234,7 +238,7 @@ impl Ingest {
                             leave out --graph and --config";
                 return Err(UsageError(what.to_owned()).into());
             }
-            return Ok(Recorder::append(&self.out, &options)?);
+            return self.with_models(Recorder::append(&self.out, &options)?);
         }
         let config = match &self.config {
             Some(path) => {
@@ -242,11 +246,21 @@ impl Ingest {
             }
             None => Config::default(),
         };
+        let config = self.language.applied_to(config);
+        // Before the file is made, so that wrong use leaves none.
+        self.language.models(&config)?;
         let initial = self.graph.as_deref().map(initial_graph).transpose()?;
-        let mut recorder = Recorder::create(&self.out, config, &options)?;
+        let recorder = Recorder::create(&self.out, config, &options)?;
+        let mut recorder = self.with_models(recorder)?;
         if let Some((graph, at)) = initial {
             recorder.record(at, Event::InitialGraph(graph))?;
         }
+        Ok(recorder)
+    }
+
+    fn with_models(&self, mut recorder: Recorder) -> anyhow::Result<Recorder> {
+        let models = self.language.models(recorder.updater().config())?;
+        recorder.set_language(Box::new(models));
         Ok(recorder)
     }
 }

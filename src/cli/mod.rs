@@ -11,6 +11,7 @@ mod house;
 mod import;
 mod info;
 mod ingest;
+mod language;
 mod log;
 mod output;
 mod plan;

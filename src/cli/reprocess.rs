@@ -74,12 +74,12 @@ pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     let recorder = args.out.as_ref().map(|path| Recorder::create(path, config.clone(), &options));
     let mut recorder = recorder.transpose()?;
     let progress = counter("inputs");
-    let result = reprocess(&recording, &config, &mut |input, _| {
+    let result = reprocess(&recording, &config, &mut |input, now| {
         progress.inc(1);
-        match &mut recorder {
-            Some(recorder) => recorder.record(input.published, input.event.clone()).map(drop),
-            None => Ok::<_, RecordError>(()),
-        }
+        let Some(recorder) = &mut recorder else { return Ok::<_, RecordError>(()) };
+        let outputs = now.iter().map(|logged| &logged.event).filter(|it| it.is_model_output());
+        let outputs = outputs.cloned().collect();
+        recorder.record_with(input.published, input.event.clone(), outputs).map(drop)
     })?;
     progress.finish_and_clear();
     if let Some(recorder) = recorder {

@@ -7,13 +7,18 @@ use anyhow::Context;
 use serde::Serialize;
 
 use super::ingest::initial_graph;
+use super::language::LanguageArgs;
 use super::output::{Output, Style, plain};
 use super::source::text;
 use super::{Outcome, UsageError, tell_explain};
 use crate::change::{ChangeRecord, World};
 use crate::document::{ChangeDocument, ContentDocument, RefDocument};
 use crate::event::{Event, Interpretation, Utterance};
-use crate::modality::human::{GroundedErrand, ground_errand, interpret, read_task};
+use crate::modality::human::{
+    Errand, GroundedErrand, LanguageModel, errands, ground_errand, interpret, parse_task,
+    read_task, task_request,
+};
+use crate::model::Models;
 use crate::recording::{Recorder, RecorderOptions};
 use crate::time::Stamp;
 use crate::updater::{Config, Updater};
@@ -27,6 +32,7 @@ Examples:
   scenefold tell scene.json \"Anna ate the banana\" -o day.mcap    and record it
   scenefold tell scene.json --task \"Bring the mug to the kitchen\"
   scenefold tell scene.json --lines said.txt --json           each line by itself
+  scenefold tell scene.json \"The clicker is gone\" --server http://localhost:11434/v1 --model NAME
 Exits with 3 if something was claimed but rejected.")]
 pub struct Tell {
     /// The graph it is said in: scene JSON, or a recording (its last state)
@@ -55,6 +61,8 @@ pub struct Tell {
     /// Print JSON: one document, or with --lines one per line
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    language: LanguageArgs,
 }
 
 /// What was said and what it changes.
@@ -89,16 +97,23 @@ pub fn run(args: &Tell, out: &mut Output) -> anyhow::Result<Outcome> {
         let what = format!("--at {at} is before the graph, which is of {start}");
         return Err(UsageError(what).into());
     }
-    let mut updater = Updater::new(Config::default());
+    let config = args.language.applied_to(Config::default());
+    let mut models = args.language.models(&config)?;
+    let mut updater = Updater::new(config);
     updater.update(start, Event::InitialGraph(graph))?;
     if let Some(path) = &args.lines {
-        return each_line(args, &updater, at, &text(path)?, out);
+        return each_line(args, (&updater, &mut models), at, &text(path)?, out);
     }
     let sentence = args.sentence.as_deref().unwrap_or_default();
-    if let Some(path) = &args.out {
-        record(args, path, &updater, (start, at), sentence)?;
+    if args.task {
+        return task(args, updater.world(), &mut models, sentence, out);
     }
-    one(args, &mut updater, at, sentence, out)
+    let said = args.said(sentence);
+    let replies = updater.ask(&said, Some(&mut models));
+    if let Some(path) = &args.out {
+        record(args, path, &updater, (start, at), (said.clone(), replies.clone()))?;
+    }
+    one(args, &mut updater, at, (said, replies), out)
 }
 
 /// The moment of the graph, or now where it has none.
@@ -112,14 +127,20 @@ fn said_at(start: Stamp) -> Stamp {
 
 fn each_line(
     args: &Tell,
-    updater: &Updater,
+    (updater, models): (&Updater, &mut Models),
     at: Stamp,
     lines: &str,
     out: &mut Output,
 ) -> anyhow::Result<Outcome> {
     let mut outcome = Outcome::Clean;
     for line in lines.lines() {
-        if one(args, &mut updater.clone(), at, line, out)? == Outcome::Findings {
+        if args.task {
+            task(args, updater.world(), models, line, out)?;
+            continue;
+        }
+        let said = args.said(line);
+        let replies = updater.ask(&said, Some(models));
+        if one(args, &mut updater.clone(), at, (said, replies), out)? == Outcome::Findings {
             outcome = Outcome::Findings;
         }
     }
@@ -131,14 +152,13 @@ fn one(
     args: &Tell,
     updater: &mut Updater,
     at: Stamp,
-    sentence: &str,
+    (said, replies): (Event, Vec<Event>),
     out: &mut Output,
 ) -> anyhow::Result<Outcome> {
-    if args.task {
-        return task(args, updater.world(), sentence, out);
-    }
-    let said = Utterance { speaker: args.speaker.clone(), text: sentence.to_owned() };
-    let logged = updater.update(at, Event::Utterance(said))?;
+    let logged = updater.update_with(at, said.clone(), replies)?;
+    let Event::Utterance(Utterance { text: sentence, .. }) = &said else {
+        return Ok(Outcome::Clean);
+    };
     let (mut changes, mut understood) = (Vec::new(), Vec::new());
     for logged in logged {
         match logged.event {
@@ -203,8 +223,22 @@ fn tell_text(
     Ok(())
 }
 
-fn task(args: &Tell, world: &World, text: &str, out: &mut Output) -> anyhow::Result<Outcome> {
-    let errands = read_task(text);
+fn task(
+    args: &Tell,
+    world: &World,
+    models: &mut Models,
+    text: &str,
+    out: &mut Output,
+) -> anyhow::Result<Outcome> {
+    let errands = match ask_task(args, world, models, text) {
+        Some(Ok(errands)) => errands,
+        Some(Err(why)) => {
+            let _ =
+                writeln!(std::io::stderr(), "read by the built-in interpreter: {}", plain(&why));
+            read_task(text)
+        }
+        None => read_task(text),
+    };
     let grounded: Vec<GroundedErrand> =
         errands.iter().map(|errand| ground_errand(world, errand, None)).collect();
     if args.json {
@@ -221,6 +255,23 @@ fn task(args: &Tell, world: &World, text: &str, out: &mut Output) -> anyhow::Res
     Ok(Outcome::Clean)
 }
 
+/// What a server makes of an instruction, if one is to be asked.
+///
+/// # Errors
+/// Why nothing can be made of its answer.
+fn ask_task(
+    args: &Tell,
+    world: &World,
+    models: &mut Models,
+    text: &str,
+) -> Option<Result<Vec<Errand>, String>> {
+    let request = task_request(world, text).filter(|_| args.language.asks_server())?;
+    let reply = models.answer(&request);
+    Some(reply.answer.and_then(|answer| {
+        parse_task(text, &answer).map(|it| errands(&it)).map_err(|error| error.to_string())
+    }))
+}
+
 fn errand_words(errand: &GroundedErrand) -> String {
     let word = |preposition: &str, node: Option<&crate::change::NodeRef>| {
         node.map_or(String::new(), |node| format!(" {preposition} {node}"))
@@ -232,6 +283,12 @@ fn errand_words(errand: &GroundedErrand) -> String {
         word("to", errand.target_room.as_ref()),
         word("onto", errand.support.as_ref())
     )
+}
+
+impl Tell {
+    fn said(&self, text: &str) -> Event {
+        Event::Utterance(Utterance { speaker: self.speaker.clone(), text: text.to_owned() })
+    }
 }
 
 impl ErrandDocument {
@@ -252,18 +309,19 @@ fn record(
     path: &Path,
     updater: &Updater,
     (start, at): (Stamp, Stamp),
-    sentence: &str,
+    (said, replies): (Event, Vec<Event>),
 ) -> anyhow::Result<()> {
     let options = RecorderOptions::default();
     let mut recorder = if Recorder::can_append(path)? {
-        Recorder::append(path, &options)?
+        let recorder = Recorder::append(path, &options)?;
+        args.language.models(recorder.updater().config())?;
+        recorder
     } else {
-        let mut recorder = Recorder::create(path, Config::default(), &options)?;
+        let mut recorder = Recorder::create(path, updater.config().clone(), &options)?;
         recorder.record(start, Event::InitialGraph(updater.graph().clone()))?;
         recorder
     };
-    let said = Utterance { speaker: args.speaker.clone(), text: sentence.to_owned() };
-    recorder.record(at, Event::Utterance(said)).context("recording the sentence")?;
+    recorder.record_with(at, said, replies).context("recording the sentence")?;
     recorder.finish()?;
     Ok(())
 }

@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use super::{ChangeDocument, EvidenceDocument, PoseDocument, PrimitiveDocument, RefDocument};
 use crate::change::{Cause, Step};
-use crate::event::{Event, Interpretation, Logged, SensorMessage, Span, Task, TaskStatus};
+use crate::event::{
+    Event, Interpretation, LanguageReply, Logged, SensorMessage, Span, Task, TaskStatus,
+};
 
 /// An event in its place in the log.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -85,6 +87,27 @@ pub enum ContentDocument {
         encoding: String,
         /// Length of the payload.
         bytes: usize,
+    },
+    /// What a model answered to a question about a sentence.
+    LanguageReply {
+        /// The message that was asked about.
+        of: EvidenceDocument,
+        /// Kind and version of the back end.
+        back_end: String,
+        /// Name of the model.
+        model: String,
+        /// Name and version of the prompt.
+        prompt: String,
+        /// The question as it was sent.
+        request: String,
+        /// The answer as it came; none if there was an error.
+        answer: Option<String>,
+        /// Why there is no answer.
+        error: Option<String>,
+        /// How many times the question was sent.
+        attempts: u32,
+        /// From the question to the answer.
+        latency_s: f64,
     },
     /// What was understood of a task or a sentence.
     Interpretation {
@@ -208,6 +231,7 @@ impl ContentDocument {
                 Self::TrueChange { change: Box::new(ChangeDocument::of(record)) }
             }
             Event::Sensor(message) => Self::sensor(message),
+            Event::LanguageReply(reply) => Self::language_reply(reply),
             Event::Interpretation(understood) => Self::interpretation(understood),
             Event::Change(record) => Self::Change { change: Box::new(ChangeDocument::of(record)) },
             Event::Transaction(transaction) => {
@@ -243,6 +267,20 @@ impl ContentDocument {
             schema: message.schema_name.to_string(),
             encoding: message.message_encoding.to_string(),
             bytes: message.data.len(),
+        }
+    }
+
+    fn language_reply(reply: &LanguageReply) -> Self {
+        Self::LanguageReply {
+            of: EvidenceDocument::of(&reply.of),
+            back_end: reply.back_end.to_string(),
+            model: reply.model.clone(),
+            prompt: reply.prompt.to_string(),
+            request: reply.request.clone(),
+            answer: reply.answer.clone().ok(),
+            error: reply.answer.clone().err(),
+            attempts: reply.attempts,
+            latency_s: reply.latency_nanos as f64 / 1e9,
         }
     }
 

@@ -25,7 +25,7 @@ pub struct TooLong {
     pub limit: usize,
 }
 
-fn check(field: &'static str, bytes: usize, limit: usize) -> Result<(), TooLong> {
+pub(super) fn check(field: &'static str, bytes: usize, limit: usize) -> Result<(), TooLong> {
     if bytes > limit { Err(TooLong { field, bytes, limit }) } else { Ok(()) }
 }
 
@@ -47,6 +47,7 @@ impl super::Event {
                 check("topic", it.topic.len(), MAX_NAME)?;
                 check("data", it.data.len(), MAX_PAYLOAD)
             }
+            Self::LanguageReply(it) => it.check_length(),
             _ => Ok(()),
         }
     }

@@ -6,9 +6,11 @@
 //! projections.
 
 mod inputs;
+mod language;
 mod topic;
 
 pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Span, Status, Task, TaskStatus, Utterance};
+pub use language::{LanguageReply, MAX_ANSWER};
 pub use topic::{Role, Topic};
 
 use crate::change::{ChangeRecord, EvidenceRef, Transaction};
@@ -33,6 +35,8 @@ pub enum Event {
     TrueChange(ChangeRecord),
     /// A message of a sensor or of another program, passed through untouched.
     Sensor(SensorMessage),
+    /// `/model/language`: what a model answered to a question about a sentence.
+    LanguageReply(LanguageReply),
     /// `/evidence/interpretation`: what was understood of a task or a sentence.
     Interpretation(Interpretation),
     /// `/change`: the unified language.
@@ -52,6 +56,7 @@ impl Event {
             Self::Tick => Topic::Clock,
             Self::TrueChange(_) => Topic::TrueChange,
             Self::Sensor(message) => Topic::Sensor(message.topic.clone()),
+            Self::LanguageReply(_) => Topic::Language,
             Self::Interpretation(_) => Topic::Interpretation,
             Self::Change(_) => Topic::Change,
             Self::Transaction(_) => Topic::Primitive,
@@ -61,6 +66,11 @@ impl Event {
     /// Whether it comes from outside, as opposed to being derived from what does.
     pub fn is_input(&self) -> bool {
         self.topic().role() == Role::Input
+    }
+
+    /// Whether it is the answer of a model: it belongs to the input before it.
+    pub fn is_model_output(&self) -> bool {
+        self.topic().role() == Role::Model
     }
 }
 

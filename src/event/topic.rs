@@ -33,6 +33,8 @@ pub enum Topic {
     Clock,
     /// `/truth/change`
     TrueChange,
+    /// `/model/language`
+    Language,
     /// `/evidence/interpretation`
     Interpretation,
     /// `/change`
@@ -47,13 +49,14 @@ pub enum Topic {
 
 impl Topic {
     /// The topics with schemas of our own.
-    pub const OWN: [Self; 10] = [
+    pub const OWN: [Self; 11] = [
         Self::InitialGraph,
         Self::Utterance,
         Self::Task,
         Self::TaskStatus,
         Self::Clock,
         Self::TrueChange,
+        Self::Language,
         Self::Interpretation,
         Self::Change,
         Self::Primitive,
@@ -75,6 +78,7 @@ impl Topic {
             Self::TaskStatus => "/robot/task_status",
             Self::Clock => "/clock",
             Self::TrueChange => "/truth/change",
+            Self::Language => "/model/language",
             Self::Interpretation => "/evidence/interpretation",
             Self::Change => "/change",
             Self::Primitive => "/primitive",
@@ -86,6 +90,7 @@ impl Topic {
     /// Its role.
     pub fn role(&self) -> Role {
         match self {
+            Self::Language => Role::Model,
             Self::Interpretation | Self::Change | Self::Primitive => Role::Derived,
             Self::Checkpoint => Role::Cache,
             Self::Sensor(name) if name.starts_with("/model/") => Role::Model,

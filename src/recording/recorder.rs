@@ -14,6 +14,7 @@ use super::segment::{next_segment, segment_files};
 use super::sink::Sink;
 use crate::container::WriteError;
 use crate::event::{Event, Logged};
+use crate::modality::human::LanguageModel;
 use crate::time::Stamp;
 use crate::updater::{Config, UpdateError, Updater};
 
@@ -130,6 +131,7 @@ pub struct Recorded {
 /// acknowledged can be read.
 pub struct Recorder {
     updater: Updater,
+    language: Option<Box<dyn LanguageModel>>,
     sink: Sink,
     ratio: u64,
     /// Event bytes in the file when the last checkpoint was written.
@@ -189,7 +191,7 @@ impl Recorder {
 
     fn over(updater: Updater, sink: Sink, options: &RecorderOptions) -> Self {
         let (ratio, counted) = (options.checkpoint_ratio.max(1), sink.event_bytes());
-        Self { updater, sink, ratio, counted, checkpoint_bytes: 4096 }
+        Self { updater, language: None, sink, ratio, counted, checkpoint_bytes: 4096 }
     }
 
     /// The updater: the graph by now, the number of the last event.
@@ -197,14 +199,36 @@ impl Recorder {
         &self.updater
     }
 
-    /// Records one input that its source stamps `published`, and what it changes.
+    /// Gives the recorder a model to ask about sentences, if its configuration says that one is
+    /// to be asked. Without one it records that nobody was there.
+    pub fn set_language(&mut self, model: Box<dyn LanguageModel>) {
+        self.language = Some(model);
+    }
+
+    /// Records one input that its source stamps `published`, what models say about it, and what
+    /// it changes. Takes as long as the models do.
     ///
     /// # Errors
     /// [`RecordError::Update`] if the input is refused: nothing is written and the recording can
     /// go on. After any other error the recorder is of no use any more; what was acknowledged
     /// is safe.
     pub fn record(&mut self, published: Stamp, input: Event) -> Result<Recorded, RecordError> {
-        let events = self.updater.update(published, input)?;
+        let model = self.language.as_mut().map(|model| &mut **model as &mut dyn LanguageModel);
+        let outputs = self.updater.ask(&input, model);
+        self.record_with(published, input, outputs)
+    }
+
+    /// As [`Recorder::record`], with what models said about the input before: no model is asked.
+    ///
+    /// # Errors
+    /// As [`Recorder::record`].
+    pub fn record_with(
+        &mut self,
+        published: Stamp,
+        input: Event,
+        outputs: Vec<Event>,
+    ) -> Result<Recorded, RecordError> {
+        let events = self.updater.update_with(published, input, outputs)?;
         self.sink.append(&events)?;
         if self.is_checkpoint_due() {
             self.checkpoint()?;

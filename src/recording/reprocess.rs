@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use super::events::{Walk, WalkError};
 use super::open::Recording;
 use crate::change::{Cause, ChangeRecord, EvidenceRef};
-use crate::event::{Event, Interpretation, Logged};
+use crate::event::{Event, Interpretation, LanguageReply, Logged};
 use crate::time::Stamp;
 use crate::updater::{Config, UpdateError, Updater};
 
@@ -75,6 +75,10 @@ pub fn reprocess<E>(
             let Some((next, updater)) = after_gap(recording, logged.order, config) else {
                 return ControlFlow::Break(());
             };
+            if let Err(error) = again.settle(sink) {
+                failure = Some(error);
+                return ControlFlow::Break(());
+            }
             again.go_on_from(updater);
             expected = next;
         }
@@ -91,10 +95,11 @@ pub fn reprocess<E>(
             }
         }
     })?;
-    match failure {
-        Some(error) => Err(error),
-        None => Ok(again.finish()),
+    if let Some(error) = failure {
+        return Err(error);
     }
+    again.settle(sink)?;
+    Ok(again.finish())
 }
 
 /// With what a gap before event `order` ends: the number of the event after the first usable
@@ -109,6 +114,8 @@ fn after_gap(recording: &Recording, order: u64, config: &Config) -> Option<(u64,
 /// The comparison on its way through a log.
 pub(super) struct Again {
     updater: Updater,
+    /// An input that is not updated with yet: the outputs of models about it may still follow.
+    waiting: Option<(Logged, Vec<Event>)>,
     /// The last input with what it derives now, and what was recorded of it so far.
     current: Option<(Logged, Vec<Logged>)>,
     recorded: Vec<Event>,
@@ -129,6 +136,7 @@ impl Again {
     pub fn new(updater: Updater) -> Self {
         Self {
             updater,
+            waiting: None,
             current: None,
             recorded: Vec::new(),
             orders: Renumber::default(),
@@ -144,24 +152,40 @@ impl Again {
         logged: &Logged,
         sink: &mut UpdateSink<'_, E>,
     ) -> Result<(), ReprocessError<E>> {
-        if !logged.event.is_input() {
+        if let Some((_, outputs)) = &mut self.waiting
+            && logged.event.is_model_output()
+        {
+            outputs.push(logged.event.clone());
             self.recorded.push(logged.event.clone());
             return Ok(());
         }
-        self.compare();
-        let order = logged.order;
-        let updated = self.updater.update(logged.published, logged.event.clone());
+        self.settle(sink)?;
+        if logged.event.is_input() {
+            self.compare();
+            self.waiting = Some((logged.clone(), Vec::new()));
+        } else {
+            self.recorded.push(logged.event.clone());
+        }
+        Ok(())
+    }
+
+    /// Updates with the last input, if that was not done yet: nothing more is recorded of what
+    /// models said about it.
+    pub fn settle<E>(&mut self, sink: &mut UpdateSink<'_, E>) -> Result<(), ReprocessError<E>> {
+        let Some((input, outputs)) = self.waiting.take() else { return Ok(()) };
+        let order = input.order;
+        let updated = self.updater.update_with(input.published, input.event.clone(), outputs);
         let events = updated.map_err(|error| ReprocessError::Update { order, error })?;
         self.inputs += 1;
         if events[0].order != order {
             self.orders.orders.insert(events[0].order, order);
         }
-        sink(logged, &events).map_err(ReprocessError::Sink)?;
-        self.current = Some((logged.clone(), events));
+        sink(&input, &events).map_err(ReprocessError::Sink)?;
+        self.current = Some((input, events));
         Ok(())
     }
 
-    /// Forgets the last input if what it derives may have been lost: at a gap.
+    /// Forgets the last input if what it derives may have been lost: at a gap. It must be settled.
     pub fn forget_unfinished(&mut self) {
         let Some((_, events)) = &self.current else { return };
         let (recorded, now) = (self.recorded.len(), events.len() - 1);
@@ -170,16 +194,22 @@ impl Again {
         }
     }
 
-    /// What the last input derives but the log does not hold, if it holds nothing of it.
+    /// What the last input derives but the log does not hold, if it holds nothing of it but what
+    /// models said. The last input must be settled.
     pub fn missing_tail(&self) -> Vec<Logged> {
         let Some((_, events)) = &self.current else { return Vec::new() };
-        if self.recorded.is_empty() { events[1..].to_vec() } else { Vec::new() }
+        let known = 1 + self.recorded.len();
+        match self.recorded.iter().all(Event::is_model_output) {
+            true => events.get(known..).unwrap_or_default().to_vec(),
+            false => Vec::new(),
+        }
     }
 
     /// Goes on from a known state, without what was not compared by then.
     fn go_on_from(&mut self, updater: Updater) {
         self.forget_last();
         self.recorded.clear();
+        self.waiting = None;
         self.updater = updater;
     }
 
@@ -194,6 +224,7 @@ impl Again {
         Reprocessed { inputs, different, differences, updater }
     }
 
+    /// The updater by now, once the last input is settled.
     pub fn updater(&self) -> &Updater {
         &self.updater
     }
@@ -224,7 +255,8 @@ impl Renumber {
         let mut event = event.clone();
         match &mut event {
             Event::Change(record) => record.claim.evidence.iter_mut().for_each(|e| self.fix(e)),
-            Event::Interpretation(Interpretation { of, .. }) => self.fix(of),
+            Event::Interpretation(Interpretation { of, .. })
+            | Event::LanguageReply(LanguageReply { of, .. }) => self.fix(of),
             Event::Transaction(transaction) => {
                 for step in &mut transaction.steps {
                     if let Cause::Evidence(evidence) = &mut step.cause {

@@ -78,6 +78,8 @@ impl Recording {
         }
         let chain = self.end_link(&run);
         let mut again = run.again;
+        let mut nowhere = |_: &_, _: &[_]| Ok::<_, Infallible>(());
+        again.settle(&mut nowhere).map_err(|error| ResumeError::Damaged(error.to_string()))?;
         let missing = again.missing_tail();
         if !missing.is_empty() {
             again.forget_last();

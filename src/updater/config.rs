@@ -5,6 +5,17 @@ use serde::{Deserialize, Serialize};
 use crate::change::PlanConfig;
 use crate::geometry::{GeometryError, Size};
 
+/// Who reads sentences.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Language {
+    /// The interpreter that is part of this program.
+    #[default]
+    Builtin,
+    /// A chat server; the built-in interpreter where it gives no valid answer.
+    Server,
+}
+
 /// Every number that detectors and planner go by. It is written into each recording, and
 /// reprocess takes it from there unless told otherwise.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,6 +29,13 @@ pub struct Config {
     /// Which detectors run over the inputs.
     #[serde(skip_serializing_if = "Detectors::is_all")]
     pub detectors: Detectors,
+    /// Who reads sentences. Recordings made before there was a choice do not say.
+    #[serde(skip_serializing_if = "is_default")]
+    pub language: Language,
+    /// Least cosine similarity, in (0, 1], at which a name that is not known is taken for the
+    /// label that a model finds nearest; none if no model is asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub label_similarity: Option<f64>,
     #[serde(skip)]
     added_size: CheckedSize,
 }
@@ -58,6 +76,13 @@ pub enum ConfigError {
     /// A rate that is none.
     #[error("added_decay_rate is {0}: it must be a number ≥ 0, in 1/s")]
     DecayRate(f64),
+    /// A similarity that is none.
+    #[error("label_similarity is {0}: it must be a cosine above 0, at most 1")]
+    Similarity(f64),
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
 }
 
 /// ln 3 / 12 h.
@@ -77,6 +102,8 @@ impl Default for Config {
             added_decay_rate: HALF_LIFE_12_H,
             added_size_m,
             detectors: Detectors::All,
+            language: Language::Builtin,
+            label_similarity: None,
             added_size,
         }
     }
@@ -91,10 +118,14 @@ impl Config {
         if !(config.added_decay_rate.is_finite() && config.added_decay_rate >= 0.0) {
             return Err(ConfigError::DecayRate(config.added_decay_rate));
         }
-        Ok(config)
+        match config.label_similarity {
+            Some(least) if !(least > 0.0 && least <= 1.0) => Err(ConfigError::Similarity(least)),
+            _ => Ok(config),
+        }
     }
 
-    /// The configuration as one line of JSON with every value.
+    /// The configuration as one line of JSON with every value, but for those that came later and
+    /// have their default.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("numbers and texts always have a JSON form")
     }
@@ -117,6 +148,19 @@ mod tests {
         };
         assert_eq!(Config::from_json(&config.to_json()).unwrap(), config);
         assert_eq!(Config::from_json("{}").unwrap(), Config::default());
+        let asking =
+            Config { language: Language::Server, label_similarity: Some(0.5), ..Config::default() };
+        assert_eq!(Config::from_json(&asking.to_json()).unwrap(), asking);
+    }
+
+    /// The configuration is hashed with the recording: what came later must not show.
+    #[test]
+    fn the_default_configuration_is_written_as_the_first_version_did() {
+        let json = Config::default().to_json();
+        assert_eq!(
+            json,
+            r#"{"added_decay_rate":0.000025430840015465504,"added_size_m":[0.2,0.2,0.2]}"#
+        );
     }
 
     #[test]
@@ -125,6 +169,8 @@ mod tests {
             (r#"{"added_decay_rate": -1}"#, "added_decay_rate"),
             (r#"{"added_size_m": [0, 1, 1]}"#, "added_size_m"),
             (r#"{"speed": 1}"#, "speed"),
+            (r#"{"language": "oracle"}"#, "oracle"),
+            (r#"{"label_similarity": 0}"#, "label_similarity"),
         ] {
             let error = Config::from_json(json).unwrap_err().to_string();
             assert!(error.contains(field), "{error}");

@@ -1,24 +1,30 @@
 //! The update function U: O × `G_t` → `G_{t+1}` (paper, "Problem Definition").
 //!
 //! One input event in, the records it causes out: itself, evidence, changes, one transaction.
-//! Live recording, import and reprocess all go through [`Updater::update`]; it is the only place
-//! where detectors meet the graph.
+//! Live recording, import and reprocess all go through [`Updater::update_with`]; it is the only
+//! place where detectors meet the graph.
+//!
+//! What models have to say about an input comes with it: [`Updater::request`] tells what to ask,
+//! and the replies are recorded right after the input, before anything is derived from them.
 //!
 //! Invariant: equal inputs in equal order give equal records, on every machine.
 //! Invariant: an updater made from its own bytes goes on as if it had never stopped.
 
 mod bytes;
 mod config;
+mod language;
+
+use self::language::Answers;
 
 pub use bytes::RestoreError;
-pub use config::{Config, ConfigError, Detectors};
+pub use config::{Config, ConfigError, Detectors, Language};
 
 use crate::change::{Claim, EvidenceRef, World};
 use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
-use crate::modality::human::{HumanDetector, Said};
+use crate::modality::human::HumanDetector;
 use crate::time::Stamp;
 
 /// The world, the detectors with their memory, and the counters of the log.
@@ -42,6 +48,12 @@ pub enum UpdateError {
     /// A derived record was offered as an input.
     #[error("{topic} is derived from inputs and cannot be one; leave it out")]
     NotAnInput {
+        /// Its topic.
+        topic: String,
+    },
+    /// Something else was offered as what models said about an input.
+    #[error("{topic} is not what a model says about an input; leave it out")]
+    NotAModelOutput {
         /// Its topic.
         topic: String,
     },
@@ -100,20 +112,33 @@ impl Updater {
         self.at
     }
 
-    /// Takes one input that its source stamps `published`, advances the graph, and returns what
-    /// is to be recorded, the input first.
+    /// [`Updater::update_with`] without any model: sentences are read by the built-in
+    /// interpreter.
+    pub fn update(&mut self, published: Stamp, input: Event) -> Result<Vec<Logged>, UpdateError> {
+        self.update_with(published, input, Vec::new())
+    }
+
+    /// Takes one input that its source stamps `published` and what models said about it,
+    /// advances the graph, and returns what is to be recorded: the input, the outputs of the
+    /// models, then what follows from them.
     ///
     /// Log time never runs backwards: an input that is stamped earlier than the one before it is
     /// logged at the time of that one, and keeps its own stamp as `published`.
-    pub fn update(&mut self, published: Stamp, input: Event) -> Result<Vec<Logged>, UpdateError> {
-        self.check(&input)?;
+    pub fn update_with(
+        &mut self,
+        published: Stamp,
+        input: Event,
+        mut outputs: Vec<Event>,
+    ) -> Result<Vec<Logged>, UpdateError> {
+        self.check(&input, &outputs)?;
         self.at = self.at.max(published);
-        let at = self.at;
-        self.order += 1;
-        let order = self.order;
-        let derived = self.derive(order, &input);
-        let mut records = vec![Logged { order, at, published, event: input }];
-        for event in derived {
+        let (at, order) = (self.at, self.order + 1);
+        let of = Logged { order, at, published, event: input };
+        outputs.iter_mut().for_each(|output| point_to(output, &of));
+        let derived = self.derive(order, &of.event, &outputs);
+        self.order = order;
+        let mut records = vec![of];
+        for event in outputs.into_iter().chain(derived) {
             self.order += 1;
             if matches!(event, Event::Change(_)) {
                 self.changes += 1;
@@ -123,7 +148,11 @@ impl Updater {
         Ok(records)
     }
 
-    fn check(&self, input: &Event) -> Result<(), UpdateError> {
+    fn check(&self, input: &Event, outputs: &[Event]) -> Result<(), UpdateError> {
+        if let Some(wrong) = outputs.iter().find(|output| !output.is_model_output()) {
+            return Err(UpdateError::NotAModelOutput { topic: wrong.topic().name().into_owned() });
+        }
+        outputs.iter().try_for_each(Event::check_length)?;
         if !input.is_input() {
             return Err(UpdateError::NotAnInput { topic: input.topic().name().into_owned() });
         }
@@ -136,7 +165,7 @@ impl Updater {
         }
     }
 
-    fn derive(&mut self, order: u64, input: &Event) -> Vec<Event> {
+    fn derive(&mut self, order: u64, input: &Event, outputs: &[Event]) -> Vec<Event> {
         if let Event::InitialGraph(graph) = input {
             self.world = World::from_graph(graph.clone());
             return Vec::new();
@@ -149,12 +178,12 @@ impl Updater {
             Detectors::Truth => return really_happened(desk, order, input),
         }
         match input {
-            Event::Utterance(said) => {
-                let said = Said { order, text: &said.text, similarity: None };
-                self.human.utterance(&mut desk, &said);
-            }
             Event::Task(task) => self.action.task(&mut desk, order, task),
             Event::TaskStatus(status) => self.action.task_status(&mut desk, order, status),
+            Event::Utterance(said) => {
+                let answers = Answers::of(&self.config, &said.text, order, outputs);
+                answers.utterance(&mut self.human, &mut desk, order, &said.text);
+            }
             _ => {}
         }
         desk.into_events()
@@ -169,4 +198,11 @@ fn really_happened(mut desk: Desk<'_>, order: u64, input: &Event) -> Vec<Event> 
         let _ = desk.claim(Claim { evidence, ..change.claim.clone() });
     }
     desk.into_events()
+}
+
+/// A reply is about the input that it came with, whatever number that had elsewhere.
+fn point_to(output: &mut Event, input: &Logged) {
+    if let Event::LanguageReply(reply) = output {
+        reply.of = input.reference();
+    }
 }

@@ -18,6 +18,7 @@ mod fields;
 mod graph_state;
 mod inputs;
 mod labels;
+mod language;
 pub mod ros2;
 mod put;
 mod schema;
@@ -67,6 +68,7 @@ pub fn encode_into(event: &Event, out: &mut Vec<u8>) {
             change_record::put_change_record(record, out);
         }
         Event::Sensor(message) => out.extend_from_slice(&message.data),
+        Event::LanguageReply(it) => append(&language::language_reply(it), out),
         Event::Interpretation(it) => append(&inputs::interpretation(it), out),
         Event::Transaction(it) => transaction::put_transaction(it, out),
     }
@@ -88,6 +90,7 @@ pub fn decode(topic: &Topic, at: Stamp, payload: &[u8]) -> Result<Event, WireErr
         Topic::TaskStatus => Event::TaskStatus(inputs::read_task_status(payload)?),
         Topic::Clock => inputs::read_tick(payload).map(|()| Event::Tick)?,
         Topic::TrueChange => Event::TrueChange(change_record::read_change_record(payload)?),
+        Topic::Language => Event::LanguageReply(language::read_language_reply(payload)?),
         Topic::Interpretation => Event::Interpretation(inputs::read_interpretation(payload)?),
         Topic::Change => Event::Change(change_record::read_change_record(payload)?),
         Topic::Primitive => Event::Transaction(decode_transaction(at, payload)?),

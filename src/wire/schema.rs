@@ -34,6 +34,7 @@ pub fn schema_of(topic: &Topic) -> Option<Schema> {
         Topic::Task => contract!("Task", "task"),
         Topic::TaskStatus => contract!("TaskStatus", "task_status"),
         Topic::Clock => contract!("Tick", "tick"),
+        Topic::Language => contract!("LanguageReply", "language_reply"),
         Topic::Interpretation => contract!("Interpretation", "interpretation"),
         Topic::Change | Topic::TrueChange => contract!("ChangeRecord", "change_record"),
         Topic::Primitive => contract!("Transaction", "transaction"),

@@ -57,6 +57,12 @@ const IMPORTS: [(u8, &str); 4] = [
     ),
 ];
 
+const ANSWERS: [&str; 3] = [
+    r#"{"kind":"report","changes":[{"action":"moved","object":{"words":"the mug","name":"mug","adjectives":[],"id":"O3","count":1},"support":null,"source_room":null,"target_room":{"words":"bedroom","name":"bedroom","adjectives":[],"id":null,"count":1},"when":{"earliest":2,"latest":0},"confidence":0.9}]}"#,
+    r#"{"kind":"question","changes":[]}"#,
+    r#"{"nearest":[{"name":"cup","label":"mug","similarity":0.7}]}"#,
+];
+
 #[test]
 fn what_fuzzing_starts_from_can_be_made() {
     let scratch = tempfile::tempdir().unwrap();
@@ -72,7 +78,11 @@ fn what_fuzzing_starts_from_can_be_made() {
         let bytes = [&[format], text.as_bytes()].concat();
         put(&corpus, "importers", &format.to_string(), &bytes).unwrap();
     }
-    for target in ["reader", "wire", "importers", "updater_bytes", "expr_at"] {
+    for (n, answer) in ANSWERS.iter().enumerate() {
+        let bytes = ["the mug is in the bedroom now\0", answer].concat();
+        put(&corpus, "model_reply", &n.to_string(), bytes.as_bytes()).unwrap();
+    }
+    for target in ["reader", "wire", "importers", "updater_bytes", "expr_at", "model_reply"] {
         assert!(fs::read_dir(corpus.join(target)).unwrap().next().is_some(), "{target}");
     }
 }

@@ -6,6 +6,7 @@
 //! - `kill`: a recorder that is killed loses nothing it acknowledged.
 //! - `mutations`, `forged`: damaged and edited files.
 //! - `cli`: the program at its boundary.
+//! - `language`: what models say, and what becomes of it.
 //! - `python`: other readers agree.
 //! - `readme`: the front door tells the truth.
 //! - `fuzz_seeds`: what fuzzing starts from.
@@ -22,6 +23,7 @@ mod fuzz_seeds;
 mod golden;
 mod house;
 mod kill;
+mod language;
 mod laws;
 mod mutations;
 mod python;

@@ -72,6 +72,7 @@ fn references_of(entry: &Entry) -> Vec<EvidenceRef> {
 fn references(logged: &Logged) -> Vec<EvidenceRef> {
     match &logged.event {
         Event::Interpretation(understood) => vec![understood.of.clone()],
+        Event::LanguageReply(reply) => vec![reply.of.clone()],
         Event::Change(record) => record.claim.evidence.clone(),
         _ => vec![],
     }

@@ -2,19 +2,21 @@
 
 use std::borrow::Cow;
 
-use super::find::LabelSimilarity;
+use super::find::{self, LabelSimilarity};
 use super::ground::{GroundConfig, Grounding, Resolved};
 use super::memory::{Done, Memory};
 use super::reading::{Mention, Reading, Statement};
 use super::report::{self, Correction};
 use crate::bytes::{Reader, Writer};
-use crate::change::{Action, Claim, EvidenceRef, NodeRef};
+use crate::change::{Action, Claim, EvidenceRef, NodeRef, World};
 use crate::event::{Interpretation, Span};
 use crate::graph::{CanonicalError, NodeId};
 use crate::modality::Desk;
+use crate::time::Stamp;
 use crate::modality::desk::{evidence, node_ref};
 
 const UTTERANCE_TOPIC: &str = "/human/utterance";
+const LANGUAGE_TOPIC: &str = "/model/language";
 
 /// For so long an utterance may be corrected and "it" may go back to the one before.
 const CONTEXT_S: f64 = 600.0;
@@ -33,6 +35,23 @@ pub struct Said<'a> {
     pub text: &'a str,
     /// Finds the nearest label where the lexicon knows none.
     pub similarity: Option<&'a dyn LabelSimilarity>,
+    /// Numbers of the replies of models that it is understood by.
+    pub replies: &'a [u64],
+    /// Why the built-in interpreter reads it, if a model was to.
+    pub instead: Option<&'a str>,
+}
+
+impl<'a> Said<'a> {
+    /// An utterance that no model has to do with.
+    pub fn new(order: u64, text: &'a str) -> Self {
+        Self { order, text, similarity: None, replies: &[], instead: None }
+    }
+
+    /// What claims rest on.
+    fn evidence(&self) -> Vec<EvidenceRef> {
+        let replies = self.replies.iter().map(|order| evidence(LANGUAGE_TOPIC, *order));
+        std::iter::once(evidence(UTTERANCE_TOPIC, self.order)).chain(replies).collect()
+    }
 }
 
 impl HumanDetector {
@@ -41,18 +60,48 @@ impl HumanDetector {
 
     /// Somebody said something: read by the built-in interpreter.
     pub fn utterance(&mut self, desk: &mut Desk<'_>, said: &Said<'_>) {
-        let fresh = desk.at().seconds_since(self.memory.said_at) <= CONTEXT_S;
-        let context = if fresh { self.antecedents(desk) } else { Vec::new() };
-        let understood = report::read(said.text, desk.at(), &context);
-        match understood.correction {
-            Some(correction)
-                if fresh
-                    && !self.memory.text.is_empty()
-                    && (!correction.answer || self.memory.done.is_empty()) =>
-            {
-                self.corrected(desk, said, &correction);
-            }
-            _ => self.told(desk, said, &understood.reading, Self::NAME.into()),
+        let (mut reading, correction) = self.read(desk.world(), desk.at(), said.text);
+        if let Some(why) = said.instead {
+            let dot = if reading.note.is_empty() { "" } else { "; " };
+            reading.note = format!("{}{dot}read by the built-in interpreter: {why}", reading.note);
+        }
+        match correction {
+            Some(correction) => self.corrected(desk, said, &correction),
+            None => self.told(desk, said, &reading, Self::NAME.into()),
+        }
+    }
+
+    /// What the built-in interpreter reads in `text`, and whether it corrects what was said
+    /// before.
+    fn read(&self, world: &World, at: Stamp, text: &str) -> (Reading, Option<Correction>) {
+        let fresh = at.seconds_since(self.memory.said_at) <= CONTEXT_S;
+        let context = if fresh { self.antecedents(world) } else { Vec::new() };
+        let understood = report::read(text, at, &context);
+        let corrects = |correction: &Correction| {
+            let answered = correction.answer && !self.memory.done.is_empty();
+            fresh && !self.memory.text.is_empty() && !answered
+        };
+        (understood.reading, understood.correction.filter(corrects))
+    }
+
+    /// Whether `text` corrects what was said before: that needs the memory of it, which models do
+    /// not have.
+    pub fn corrects(&self, world: &World, at: Stamp, text: &str) -> bool {
+        self.read(world, at, text).1.is_some()
+    }
+
+    /// The names in `reading`, or in what the built-in interpreter reads if there is none, that
+    /// neither the graph nor the lexicon knows.
+    pub fn unknown_names(
+        &self,
+        world: &World,
+        at: Stamp,
+        text: &str,
+        reading: Option<&Reading>,
+    ) -> Vec<String> {
+        match reading {
+            Some(reading) => find::unknown_names(world, reading),
+            None => find::unknown_names(world, &self.read(world, at, text).0),
         }
     }
 
@@ -64,11 +113,11 @@ impl HumanDetector {
         reading: &Reading,
         detector: Cow<'static, str>,
     ) {
-        let rests_on = vec![evidence(UTTERANCE_TOPIC, said.order)];
+        let rests_on = said.evidence();
         if reading.statements.is_empty() {
             // What the built-in interpreter finds to say nothing, it will find again; what a
             // model made of it is worth a record.
-            if detector != Self::NAME {
+            if detector != Self::NAME || said.instead.is_some() {
                 let note = reading.note.clone();
                 desk.interpret(Interpretation { note, ..Interpretation::of(rests_on[0].clone()) });
             }
@@ -130,9 +179,9 @@ impl HumanDetector {
     }
 
     /// What "it" may mean: what the utterance before was about.
-    fn antecedents(&self, desk: &Desk<'_>) -> Vec<Mention> {
+    fn antecedents(&self, world: &World) -> Vec<Mention> {
         let mention = |done: &Done| {
-            let label = desk.world().known(done.id)?.label.to_string();
+            let label = world.known(done.id)?.label.to_string();
             let id = Some(done.id.to_string());
             Some(Mention { noun: label, id, definite: true, ..Mention::default() })
         };
@@ -143,7 +192,7 @@ impl HumanDetector {
     /// thing, then claims the right one.
     fn corrected(&mut self, desk: &mut Desk<'_>, said: &Said<'_>, correction: &Correction) {
         let before = report::read(&self.memory.text, self.memory.said_at, &[]).reading;
-        let rests_on = vec![evidence(UTTERANCE_TOPIC, said.order)];
+        let rests_on = said.evidence();
         let Some(last) = before.statements.last() else { return };
         let done = std::mem::take(&mut self.memory.done);
         let mut statement = without_spans(last);

@@ -6,7 +6,7 @@ use super::ground::Resolved;
 use super::lexicon::{Frame, Lexicon, Preposition, lexicon};
 use super::names::Name;
 use super::phrase::Phrase;
-use super::reading::Mention;
+use super::reading::{Mention, Reading, Statement};
 use super::token::{Sentence, is_no_speech, sentences};
 use crate::change::{NodeRef, World};
 use crate::graph::NodeId;
@@ -40,6 +40,22 @@ pub struct GroundedErrand {
 
 /// Errands of one instruction that are taken.
 const MAX_ERRANDS: usize = 16;
+
+/// The errands that a model reads in an instruction: each statement is one.
+pub fn errands(reading: &Reading) -> Vec<Errand> {
+    let errand = |it: &Statement| {
+        let target = match &it.support {
+            Some(support) => {
+                let at = it.target_room.iter().cloned().collect();
+                Some(Mention { at, ..support.clone() })
+            }
+            None => it.target_room.clone(),
+        };
+        let source = it.source_room.iter().cloned().collect();
+        Errand { object: Some(it.object.clone()), source, target }
+    };
+    reading.statements.iter().take(MAX_ERRANDS).map(errand).collect()
+}
 
 /// The errands of an instruction, in order.
 pub fn read_task(text: &str) -> Vec<Errand> {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::lexicon::{Lexicon, lexicon};
 use super::names::{Closeness, Name};
-use super::reading::Mention;
+use super::reading::{Mention, Reading};
 use crate::change::World;
 use crate::graph::{NodeId, Object};
 
@@ -178,6 +178,26 @@ impl Finder<'_> {
         let same = labels.iter().filter(|it| it.1 == *label);
         same.map(|(id, _)| Candidate { id: *id, closeness: Closeness::Kind, missing: 0 }).collect()
     }
+}
+
+/// The names in `reading` that neither the graph nor the lexicon knows.
+pub(super) fn unknown_names(world: &World, reading: &Reading) -> Vec<String> {
+    let finder = Finder { similarity: None, guess: false };
+    let unknown = |mention: &&Mention| {
+        let things = || finder.objects(mention, world.graph().all_objects());
+        let departed = || finder.objects(mention, world.all_departed());
+        mention.id.is_none()
+            && finder.rooms(mention, world).is_empty()
+            && things().is_empty()
+            && departed().is_empty()
+    };
+    let mentions = reading.statements.iter().flat_map(|it| {
+        let others = [&it.support, &it.source_room, &it.target_room];
+        let named = std::iter::once(&it.object).chain(others.into_iter().flatten());
+        named.flat_map(|mention| std::iter::once(mention).chain(&mention.at))
+    });
+    let names: BTreeSet<String> = mentions.filter(unknown).map(|it| it.noun.clone()).collect();
+    names.into_iter().collect()
 }
 
 /// The closest of `candidates`, which are in order: all that are equally close.

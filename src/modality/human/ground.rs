@@ -388,6 +388,7 @@ impl<'a> Grounding<'a> {
             if world.known(id).is_none() {
                 return Err(Box::new(Rejection::UnknownObject { wanted: NodeRef::id(id), where_: String::new() }));
             }
+            self.check_name(world, mention, id)?;
             self.chose(role, mention, vec![id], &[id], "named by id".to_owned());
             return Ok(vec![id]);
         }
@@ -414,6 +415,19 @@ impl<'a> Grounding<'a> {
             self.meant.insert(span, chosen.clone());
         }
         Ok(chosen)
+    }
+
+    /// A reader that chooses an id must call it by a name that it may have.
+    fn check_name(&self, world: &World, mention: &Mention, id: NodeId) -> Result<(), Refusal> {
+        let (Some(object), Ok(claimed)) = (world.known(id), Label::new(&mention.noun)) else {
+            return Ok(());
+        };
+        let same = object.label.same_class(claimed.as_str());
+        let fits = || !self.finder.objects(mention, std::iter::once((id, object))).is_empty();
+        if same || fits() {
+            return Ok(());
+        }
+        Err(Box::new(Rejection::Contradiction { id, label: object.label.clone(), claimed }))
     }
 
     /// Those of `all` that are where the words say.

@@ -20,18 +20,33 @@ mod ground;
 mod lemma;
 mod lexicon;
 mod memory;
+mod model;
+mod model_excerpt;
+mod model_nearest;
+mod model_reply;
+mod model_request;
 mod names;
 mod phrase;
 mod reading;
 mod report;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_model;
 mod times;
 mod token;
 
+pub use model::{LanguageModel, LanguageRequest, NearestQuestion, Question};
+pub use model_excerpt::{Excerpt, ObjectEntry, RoomEntry};
+pub use model_nearest::{Nearest, NearestAnswer, NearestLabel};
+pub use model_reply::{MAX_CHANGES, ReplyError, parse_reading, parse_task};
+pub use model_request::{
+    ANSWER_SCHEMA, MAX_ASKED, NEAREST_PROMPT, READING_PROMPT, TASK_PROMPT, nearest_request,
+    reading_request, task_request,
+};
 pub use detector::{HumanDetector, Said};
 pub(crate) use detector::spans;
-pub use errand::{Errand, GroundedErrand, ground_errand, read_task};
+pub use errand::{Errand, GroundedErrand, errands, ground_errand, read_task};
 pub use find::LabelSimilarity;
 pub use ground::{GroundConfig, Grounding, Places, Resolved, Verdict, ground};
 pub use reading::{Mention, Quantity, Reading, Statement, When};

@@ -62,7 +62,7 @@ fn say(sentences: &[&str]) -> (Vec<String>, World) {
         detector = HumanDetector::read_bytes(&mut Reader(&bytes.0)).unwrap();
         let at = NOW.plus_nanos(n * 60_000_000_000);
         let mut desk = Desk::new(&mut world, &config, at, 0);
-        detector.utterance(&mut desk, &Said { order: n + 1, text, similarity: None });
+        detector.utterance(&mut desk, &Said::new(n + 1, text));
         for event in desk.into_events() {
             let Event::Change(record) = event else { continue };
             let claim = record.claim;

@@ -1,5 +1,7 @@
 //! What the messages say: numbers, the chain, the fold, the detectors.
 
+use std::convert::Infallible;
+
 use super::{Check, Status};
 use crate::change::World;
 use crate::container::{MessageFilter, RawMessage};
@@ -12,6 +14,12 @@ use crate::recording::open::Segment;
 use crate::recording::orphans::Orphans;
 use crate::recording::reprocess::{Again, ReprocessError};
 use crate::updater::Config;
+
+/// Where what follows goes when it is only compared.
+#[allow(clippy::unnecessary_wraps)]
+fn nowhere(_: &Logged, _: &[Logged]) -> Result<(), Infallible> {
+    Ok(())
+}
 
 impl Check<'_> {
     pub(super) fn contents(&mut self, progress: &mut dyn FnMut(u64)) {
@@ -100,6 +108,7 @@ impl Check<'_> {
     /// Something is missing after the last event; a recovered recording may have told so.
     fn gap(&mut self, segment: &Segment, what: String) {
         self.broken = true;
+        self.settle(segment);
         if let Some(again) = &mut self.again {
             again.forget_unfinished();
         }
@@ -137,9 +146,21 @@ impl Check<'_> {
             }
             _ => {}
         }
+        self.run_again(segment, |again| again.take(logged, &mut nowhere));
+    }
+
+    /// Runs the detectors over the last input, whose last model output was read.
+    pub(super) fn settle(&mut self, segment: &Segment) {
+        self.run_again(segment, |again| again.settle(&mut nowhere));
+    }
+
+    fn run_again(
+        &mut self,
+        segment: &Segment,
+        run: impl FnOnce(&mut Again) -> Result<(), ReprocessError<Infallible>>,
+    ) {
         let Some(again) = &mut self.again else { return };
-        let mut nowhere = |_: &_, _: &[_]| Ok::<_, std::convert::Infallible>(());
-        if let Err(ReprocessError::Update { order, error }) = again.take(logged, &mut nowhere) {
+        if let Err(ReprocessError::Update { order, error }) = run(again) {
             self.again = None;
             let what = format!("event #{order} is refused when the detectors run again: {error}");
             self.find(Status::Nondeterministic, segment, what);
@@ -181,6 +202,7 @@ impl Check<'_> {
     }
 
     fn compare_state(&mut self, segment: &Segment, checkpoint: &Checkpoint) {
+        self.settle(segment);
         let order = checkpoint.order;
         if self.world.graph().hash() != checkpoint.state_hash {
             let what = format!("the fold does not give the state of the checkpoint after #{order}");

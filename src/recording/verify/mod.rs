@@ -160,6 +160,7 @@ impl<'r> Check<'r> {
 
     /// Ends a stretch over which the detectors ran again, and notes what they said differently.
     pub(super) fn compare_derived(&mut self, segment: &Segment) {
+        self.settle(segment);
         let Some(again) = self.again.take() else { return };
         let result = again.finish();
         self.reprocessed += result.inputs - result.different;

@@ -27,6 +27,7 @@ fn the_embedded_contracts_change_only_on_purpose() {
     scenefold.v1.TaskStatus 1505 6d358798e64cc9df
     scenefold.v1.Tick 57 3cdfcb13170a4b0f
     scenefold.v1.ChangeRecord 2215 50773ac630fb7f97
+    scenefold.v1.LanguageReply 1388 79435683af9938d8
     scenefold.v1.Interpretation 1623 b96928d09f4d58ce
     scenefold.v1.ChangeRecord 2215 50773ac630fb7f97
     scenefold.v1.Transaction 2694 360e281e76a343ce

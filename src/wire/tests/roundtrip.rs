@@ -41,7 +41,9 @@ proptest! {
         task in testing::task(),
         status in testing::task_status(),
         interpretation in testing::interpretation(),
+        reply in testing::language_reply(),
     ) {
+        check(Stamp::EPOCH, &Event::LanguageReply(reply))?;
         check(Stamp::EPOCH, &Event::Utterance(utterance))?;
         check(Stamp::EPOCH, &Event::Task(task))?;
         check(Stamp::EPOCH, &Event::TaskStatus(status))?;

@@ -8,6 +8,6 @@ mod states;
 use proptest::test_runner::Config;
 
 /// Cases are few because each is a whole recording.
-fn cases(count: u32) -> Config {
+pub fn cases(count: u32) -> Config {
     Config { cases: count, max_shrink_iters: 200, failure_persistence: None, ..Config::default() }
 }
