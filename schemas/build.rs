@@ -7,13 +7,14 @@ use std::path::Path;
 use std::{env, fs};
 
 /// Contracts of the channels, by file stem; each holds one channel message.
-const CHANNELS: [&str; 9] = [
+const CHANNELS: [&str; 10] = [
     "graph_state",
     "utterance",
     "task",
     "task_status",
     "tick",
     "interpretation",
+    "staleness",
     "change_record",
     "transaction",
     "checkpoint",

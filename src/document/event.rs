@@ -4,7 +4,9 @@ use serde::Serialize;
 
 use super::{ChangeDocument, EvidenceDocument, PoseDocument, PrimitiveDocument, RefDocument};
 use crate::change::{Cause, Step};
-use crate::event::{Event, Interpretation, Logged, SensorMessage, Task, TaskStatus};
+use crate::event::{
+    Event, Interpretation, Logged, SensorMessage, StaleTarget, Staleness, Task, TaskStatus,
+};
 
 /// An event in its place in the log.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -96,6 +98,13 @@ pub enum ContentDocument {
         /// How it was understood, or why not.
         note: String,
     },
+    /// Objects that are probably no longer where they were last observed.
+    Staleness {
+        /// The probability they fell below.
+        threshold: f64,
+        /// Which.
+        targets: Vec<StaleTargetDocument>,
+    },
     /// A change record.
     Change {
         /// The record.
@@ -106,6 +115,21 @@ pub enum ContentDocument {
         /// What it does, in order.
         steps: Vec<StepDocument>,
     },
+}
+
+/// One object that is probably no longer where it was last observed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StaleTargetDocument {
+    /// The object.
+    pub object: RefDocument,
+    /// The room it was last observed in.
+    pub room: Option<RefDocument>,
+    /// How probable it is that it is still there.
+    pub probability: f64,
+    /// λ in 1/s.
+    pub decay_rate: f64,
+    /// When it was last observed.
+    pub last_observed: String,
 }
 
 /// A primitive and its cause.
@@ -140,6 +164,19 @@ impl EventDocument {
     }
 }
 
+impl StaleTargetDocument {
+    /// The document of a target.
+    pub fn of(target: &StaleTarget) -> Self {
+        Self {
+            object: RefDocument::of(&target.object),
+            room: RefDocument::maybe(target.room.as_ref()),
+            probability: target.probability,
+            decay_rate: target.decay_rate,
+            last_observed: target.last_observed.to_string(),
+        }
+    }
+}
+
 impl CauseDocument {
     /// The document of a cause.
     pub fn of(cause: &Cause) -> Self {
@@ -167,6 +204,7 @@ impl ContentDocument {
             Event::Tick => Self::Tick,
             Event::Sensor(message) => Self::sensor(message),
             Event::Interpretation(understood) => Self::interpretation(understood),
+            Event::Staleness(stale) => Self::staleness(stale),
             Event::Change(record) => Self::Change { change: Box::new(ChangeDocument::of(record)) },
             Event::Transaction(transaction) => {
                 Self::Transaction { steps: transaction.steps.iter().map(step).collect() }
@@ -202,6 +240,11 @@ impl ContentDocument {
             encoding: message.message_encoding.to_string(),
             bytes: message.data.len(),
         }
+    }
+
+    fn staleness(stale: &Staleness) -> Self {
+        let targets = stale.targets.iter().map(StaleTargetDocument::of).collect();
+        Self::Staleness { threshold: stale.threshold, targets }
     }
 
     fn interpretation(understood: &Interpretation) -> Self {

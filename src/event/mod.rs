@@ -8,7 +8,7 @@
 mod inputs;
 mod topic;
 
-pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Status, Task, TaskStatus, Utterance};
+pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, StaleTarget, Staleness, Status, Task, TaskStatus, Utterance};
 pub use topic::{Role, Topic};
 
 use crate::change::{ChangeRecord, EvidenceRef, Transaction};
@@ -32,6 +32,8 @@ pub enum Event {
     Sensor(SensorMessage),
     /// `/evidence/interpretation`: what was understood of a task or a sentence.
     Interpretation(Interpretation),
+    /// `/evidence/staleness`: what is probably no longer where it was seen.
+    Staleness(Staleness),
     /// `/change`: the unified language.
     Change(ChangeRecord),
     /// `/primitive`: what the fold eats.
@@ -49,6 +51,7 @@ impl Event {
             Self::Tick => Topic::Clock,
             Self::Sensor(message) => Topic::Sensor(message.topic.clone()),
             Self::Interpretation(_) => Topic::Interpretation,
+            Self::Staleness(_) => Topic::Staleness,
             Self::Change(_) => Topic::Change,
             Self::Transaction(_) => Topic::Primitive,
         }

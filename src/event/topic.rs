@@ -33,6 +33,8 @@ pub enum Topic {
     Clock,
     /// `/evidence/interpretation`
     Interpretation,
+    /// `/evidence/staleness`
+    Staleness,
     /// `/change`
     Change,
     /// `/primitive`
@@ -45,13 +47,14 @@ pub enum Topic {
 
 impl Topic {
     /// The topics with schemas of our own.
-    pub const OWN: [Self; 9] = [
+    pub const OWN: [Self; 10] = [
         Self::InitialGraph,
         Self::Utterance,
         Self::Task,
         Self::TaskStatus,
         Self::Clock,
         Self::Interpretation,
+        Self::Staleness,
         Self::Change,
         Self::Primitive,
         Self::Checkpoint,
@@ -72,6 +75,7 @@ impl Topic {
             Self::TaskStatus => "/robot/task_status",
             Self::Clock => "/clock",
             Self::Interpretation => "/evidence/interpretation",
+            Self::Staleness => "/evidence/staleness",
             Self::Change => "/change",
             Self::Primitive => "/primitive",
             Self::Checkpoint => "/checkpoint",
@@ -85,7 +89,9 @@ impl Topic {
             Self::InitialGraph | Self::Utterance | Self::Task | Self::TaskStatus | Self::Clock => {
                 Role::Input
             }
-            Self::Interpretation | Self::Change | Self::Primitive => Role::Derived,
+            Self::Interpretation | Self::Staleness | Self::Change | Self::Primitive => {
+                Role::Derived
+            }
             Self::Checkpoint => Role::Cache,
             Self::Sensor(name) if name.starts_with("/model/") => Role::Model,
             Self::Sensor(name) if name.starts_with("/evidence/") => Role::Derived,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::change::PlanConfig;
 use crate::geometry::{GeometryError, Size};
+use crate::modality::time::DecayTable;
 
 /// Every number that detectors and planner go by. It is written into each recording, and
 /// reprocess takes it from there unless told otherwise.
@@ -15,6 +16,14 @@ pub struct Config {
     pub added_decay_rate: f64,
     /// Box of objects that are added without a measured one: (w, h, d) in metres.
     pub added_size_m: [f64; 3],
+    /// λ by class: set when a graph is taken over and when an object is added. Without a table,
+    /// λ is what the graph says, and [`Config::added_decay_rate`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay: Option<DecayTable>,
+    /// The probability below which an object is a target to look at, above 0 and below 1. Without
+    /// it, nothing is reported on `/evidence/staleness`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stale_below: Option<f64>,
     #[serde(skip)]
     added_size: CheckedSize,
 }
@@ -35,6 +44,9 @@ pub enum ConfigError {
     /// A rate that is none.
     #[error("added_decay_rate is {0}: it must be a number ≥ 0, in 1/s")]
     DecayRate(f64),
+    /// A threshold that is none.
+    #[error("stale_below is {0}: it must be a probability above 0 and below 1, such as 0.5")]
+    StaleBelow(f64),
 }
 
 /// ln 3 / 12 h.
@@ -50,7 +62,13 @@ impl Default for Config {
     fn default() -> Self {
         let added_size = CheckedSize::default();
         let added_size_m = added_size.0.metres();
-        Self { added_decay_rate: HALF_LIFE_12_H, added_size_m, added_size }
+        Self {
+            added_decay_rate: HALF_LIFE_12_H,
+            added_size_m,
+            decay: None,
+            stale_below: None,
+            added_size,
+        }
     }
 }
 
@@ -62,6 +80,9 @@ impl Config {
         config.added_size = CheckedSize(Size::new(w, h, d)?);
         if !(config.added_decay_rate.is_finite() && config.added_decay_rate >= 0.0) {
             return Err(ConfigError::DecayRate(config.added_decay_rate));
+        }
+        if let Some(threshold) = config.stale_below.filter(|it| !(*it > 0.0 && *it < 1.0)) {
+            return Err(ConfigError::StaleBelow(threshold));
         }
         Ok(config)
     }
@@ -93,6 +114,9 @@ mod tests {
             (r#"{"added_decay_rate": -1}"#, "added_decay_rate"),
             (r#"{"added_size_m": [0, 1, 1]}"#, "added_size_m"),
             (r#"{"speed": 1}"#, "speed"),
+            (r#"{"stale_below": 1}"#, "stale_below"),
+            (r#"{"stale_below": -0.5}"#, "stale_below"),
+            (r#"{"decay": {"classes": {"mug": {"rate_per_s": -1}}}}"#, "mug: rate_per_s"),
         ] {
             let error = Config::from_json(json).unwrap_err().to_string();
             assert!(error.contains(field), "{error}");

@@ -9,6 +9,7 @@
 
 mod bytes;
 mod config;
+mod decay;
 
 pub use bytes::RestoreError;
 pub use config::{Config, ConfigError};
@@ -18,6 +19,7 @@ use crate::event::{Event, Logged, TooLong};
 use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
+use crate::modality::time::TimeDetector;
 use crate::time::Stamp;
 
 /// The world, the detectors with their memory, and the counters of the log.
@@ -26,6 +28,8 @@ pub struct Updater {
     config: Config,
     world: World,
     action: ActionDetector,
+    /// Idle unless the configuration has a threshold of staleness.
+    time: TimeDetector,
     /// Number of the last event.
     order: u64,
     /// Number of the last change.
@@ -61,6 +65,7 @@ impl Updater {
             config,
             world: World::default(),
             action: ActionDetector::default(),
+            time: TimeDetector::default(),
             order: 0,
             changes: 0,
             at: Stamp::EPOCH,
@@ -136,7 +141,6 @@ impl Updater {
     fn derive(&mut self, order: u64, input: &Event) -> Vec<Event> {
         if let Event::InitialGraph(graph) = input {
             self.world = World::from_graph(graph.clone());
-            return Vec::new();
         }
         let plan = self.config.plan();
         let mut desk = Desk::new(&mut self.world, &plan, self.at, self.changes);
@@ -144,6 +148,18 @@ impl Updater {
             Event::Task(task) => self.action.task(&mut desk, order, task),
             Event::TaskStatus(status) => self.action.task_status(&mut desk, order, status),
             _ => {}
+        }
+        if let Some(table) = &self.config.decay {
+            match input {
+                Event::InitialGraph(_) => decay::settle(&mut desk, table, order),
+                _ => decay::settle_added(&mut desk, table),
+            }
+        }
+        if let Some(threshold) = self.config.stale_below {
+            if matches!(input, Event::InitialGraph(_)) {
+                self.time.watch_all(desk.world().graph(), threshold);
+            }
+            self.time.update(&mut desk, threshold);
         }
         desk.into_events()
     }

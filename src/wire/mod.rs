@@ -21,6 +21,7 @@ mod labels;
 pub mod ros2;
 mod put;
 mod schema;
+mod staleness;
 mod transaction;
 
 #[cfg(test)]
@@ -65,6 +66,7 @@ pub fn encode_into(event: &Event, out: &mut Vec<u8>) {
         Event::Tick => append(&proto::Tick {}, out),
         Event::Sensor(message) => out.extend_from_slice(&message.data),
         Event::Interpretation(it) => append(&inputs::interpretation(it), out),
+        Event::Staleness(it) => append(&staleness::staleness(it), out),
         Event::Change(record) => change_record::put_change_record(record, out),
         Event::Transaction(it) => transaction::put_transaction(it, out),
     }
@@ -86,6 +88,7 @@ pub fn decode(topic: &Topic, at: Stamp, payload: &[u8]) -> Result<Event, WireErr
         Topic::TaskStatus => Event::TaskStatus(inputs::read_task_status(payload)?),
         Topic::Clock => inputs::read_tick(payload).map(|()| Event::Tick)?,
         Topic::Interpretation => Event::Interpretation(inputs::read_interpretation(payload)?),
+        Topic::Staleness => Event::Staleness(staleness::read_staleness(payload)?),
         Topic::Change => Event::Change(change_record::read_change_record(payload)?),
         Topic::Primitive => Event::Transaction(decode_transaction(at, payload)?),
         Topic::Checkpoint | Topic::Sensor(_) => {

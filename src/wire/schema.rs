@@ -35,6 +35,7 @@ pub fn schema_of(topic: &Topic) -> Option<Schema> {
         Topic::TaskStatus => contract!("TaskStatus", "task_status"),
         Topic::Clock => contract!("Tick", "tick"),
         Topic::Interpretation => contract!("Interpretation", "interpretation"),
+        Topic::Staleness => contract!("Staleness", "staleness"),
         Topic::Change => contract!("ChangeRecord", "change_record"),
         Topic::Primitive => contract!("Transaction", "transaction"),
         Topic::Checkpoint => contract!("Checkpoint", "checkpoint"),
