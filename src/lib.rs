@@ -21,10 +21,11 @@
 //! | [`graph`] | the scene graph as a value, its canonical bytes, its hash | no |
 //! | [`change`] | change records, primitives, transactions, the planner between them | no |
 //! | [`event`] | everything that stands in a log, and the log's order | no |
-//! | [`modality`] | the detectors; robot action so far | no |
+//! | [`modality`] | the detectors: robot action, time | no |
 //! | [`updater`] | U: one input in, records out; where detectors meet the graph | no |
 //! | [`document`] | the JSON documents of the command line | no |
 //! | [`history`] | diff, why, bisect | no |
+//! | [`learn`] | how long things stay, learned from logs; how good predictions are | no |
 //! | [`wire`] | protobuf and CDR contracts to events and back | no |
 //! | [`interchange`] | scenes of others in and out: parsers and printers | no |
 //! | [`container`] | MCAP files as raw messages, whole or damaged | yes |
@@ -136,6 +137,7 @@ core_modules! {
     pub mod updater;
     pub mod document;
     pub mod history;
+    pub mod learn;
     pub mod wire;
     pub mod interchange;
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules in the order of `lib.rs`, which is that of the alphabet; here by rank: a module may use
 /// only those before it.
-const RANKS: [&str; 21] = [
+const RANKS: [&str; 22] = [
     "bytes",
     "time",
     "geometry",
@@ -19,6 +19,7 @@ const RANKS: [&str; 21] = [
     "history",
     "modality",
     "updater",
+    "learn",
     "recording",
     "snapshot",
     "model",

@@ -28,6 +28,7 @@ pub use detector::TimeDetector;
 pub use duration::{DurationError, HumanDuration};
 pub use stillness::Stillness;
 pub use table::{ClassDecay, DecayTable, Origin, TableError};
+pub(crate) use table::read_decay;
 
 /// ln 3: λ times the half-life, since 2 / (1 + e^{λt}) = 1/2 where e^{λt} = 3.
 pub const LN_3: f64 = 1.098_612_288_668_109_8;

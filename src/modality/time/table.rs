@@ -161,6 +161,11 @@ impl DecayTable {
         self.classes.iter().map(|(class, decay)| (class.as_str(), *decay))
     }
 
+    /// Which class is said to be like which, in order.
+    pub fn likes(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.like.iter().map(|(class, like)| (class.as_str(), like.as_str()))
+    }
+
     /// λ of what is like nothing in the table.
     pub fn default_decay(&self) -> Option<ClassDecay> {
         self.default

@@ -1,0 +1,1 @@
+//! Laws of learning: what was put in comes out.
