@@ -32,6 +32,7 @@
 //! | [`recording`] | write, replay, seek, verify, recover, reprocess | yes |
 //! | [`simulation`] | a house, its people, its robot and what the camera sees | at the edge |
 //! | [`snapshot`] | a recording as text, for regression tests | no |
+//! | [`view`] | floor plans and diagrams: SVG, PNG | no |
 //! | [`cli`] | one file per command; terminal, environment, exit codes | yes |
 //!
 //! # One update
@@ -146,6 +147,7 @@ pub mod container;
 pub mod recording;
 pub mod simulation;
 pub mod snapshot;
+pub mod view;
 
 #[cfg(test)]
 mod testing;

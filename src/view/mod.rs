@@ -1,0 +1,10 @@
+//! Pictures for people: floor plans and diagrams as SVG and PNG.
+//!
+//! Knows nothing of recordings. Same input, same bytes; fonts come from the crate, never from
+//! the system.
+//!
+//! - [`svg`]: a writer of SVG, in the style all our drawings share.
+//! - [`raster`]: SVG to PNG.
+
+pub mod raster;
+pub mod svg;
