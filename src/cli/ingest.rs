@@ -9,6 +9,7 @@ use anyhow::Context;
 use clap::ValueEnum;
 use serde::Serialize;
 
+use super::decay::DecayArgs;
 use super::output::Output;
 use super::replay::state_at;
 use super::source::{self, is_mcap, text};
@@ -54,6 +55,8 @@ pub struct Ingest {
     /// Configuration (JSON) of a new recording
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    #[command(flatten)]
+    decay: DecayArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -229,9 +232,9 @@ impl Ingest {
         };
         let options = RecorderOptions { sync, ..RecorderOptions::default() };
         if Recorder::can_append(&self.out)? {
-            if self.graph.is_some() || self.config.is_some() {
+            if self.graph.is_some() || self.config.is_some() || !self.decay.is_empty() {
                 let what = "a recording that is gone on with has its graph and configuration already: \
-                            leave out --graph and --config";
+                            leave out --graph, --config, --decay and --stale-below";
                 return Err(UsageError(what.to_owned()).into());
             }
             return Ok(Recorder::append(&self.out, &options)?);
@@ -242,6 +245,7 @@ impl Ingest {
             }
             None => Config::default(),
         };
+        let config = self.decay.apply(config)?;
         let initial = self.graph.as_deref().map(initial_graph).transpose()?;
         let mut recorder = Recorder::create(&self.out, config, &options)?;
         if let Some((graph, at)) = initial {

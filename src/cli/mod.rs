@@ -4,12 +4,15 @@
 //! rejections). Everything a command does is a documented function of the crate.
 
 mod bisect;
+mod calibrate;
+mod decay;
 mod demo;
 mod diff;
 mod export;
 mod import;
 mod info;
 mod ingest;
+mod learn_decay;
 mod log;
 mod output;
 mod progress;
@@ -68,6 +71,8 @@ enum Command {
     Import(import::Import),
     Export(export::Export),
     Ingest(ingest::Ingest),
+    LearnDecay(learn_decay::LearnDecay),
+    Calibrate(calibrate::Calibrate),
     Demo(demo::Demo),
 }
 
@@ -122,6 +127,8 @@ impl Cli {
             Command::Import(args) => import::run(&args, out),
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
+            Command::LearnDecay(args) => learn_decay::run(&args, out),
+            Command::Calibrate(args) => calibrate::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

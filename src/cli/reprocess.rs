@@ -7,6 +7,7 @@ use anyhow::Context;
 use serde::Serialize;
 
 use super::Outcome;
+use super::decay::DecayArgs;
 use super::output::{Output, Style};
 use super::progress::counter;
 use super::source::{self, RecordingArg, text};
@@ -33,6 +34,8 @@ pub struct Reprocess {
     /// Configuration (JSON) instead of the recorded one
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    #[command(flatten)]
+    decay: DecayArgs,
     /// Print one JSON document
     #[arg(long)]
     json: bool,
@@ -64,6 +67,7 @@ pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
         }
         None => recording.meta().map_or_else(Config::default, |meta| meta.config.clone()),
     };
+    let config = args.decay.apply(config)?;
     let options = RecorderOptions::default();
     let recorder = args.out.as_ref().map(|path| Recorder::create(path, config.clone(), &options));
     let mut recorder = recorder.transpose()?;

@@ -5,11 +5,12 @@ use std::ops::ControlFlow;
 
 use crate::change::{Cause, ChangeRecord, Modality, Primitive, Step, Transaction, World};
 use crate::event::{Event, Logged};
-use crate::graph::{Label, NodeId, Object, SceneGraph};
+use crate::graph::{Label, NodeId, Object};
 use crate::history::{EventLog, FoldError, advance};
 use crate::modality::time::Stillness;
 use crate::time::Stamp;
 
+use super::belief::place_name;
 use super::birth_death::PairCounts;
 use super::dwell::{Dwell, DwellData, DwellError};
 
@@ -227,7 +228,7 @@ impl Collector {
         let there = graph.object(id).filter(|object| !object.is_held());
         let spot = there.map(|object| spot_of(self.number, object));
         if let Some(spot) = spot {
-            self.out.names.entry(spot).or_insert_with(|| name(graph, spot));
+            self.out.names.entry(spot).or_insert_with(|| place_name(graph, spot.support.unwrap_or(spot.room)));
         }
         let history = self.out.objects.entry(id).or_insert_with(|| ObjectHistory {
             label: object.label.clone(),
@@ -255,13 +256,6 @@ impl Collector {
 
 fn spot_of(log: u32, object: &Object) -> Spot {
     Spot { log, room: object.room, support: object.support }
-}
-
-fn name(graph: &SceneGraph, spot: Spot) -> String {
-    let named = |id: NodeId| {
-        graph.label(id).map_or_else(|| id.to_string(), |label| format!("{label} {id}"))
-    };
-    named(spot.support.unwrap_or(spot.room))
 }
 
 impl ObjectHistory {

@@ -16,12 +16,14 @@
 //! that was logged after it.
 //! Invariant: time and memory grow linearly with what is learned from.
 
+mod belief;
 mod birth_death;
 mod calibrate;
 mod document;
 mod dwell;
 mod fit;
 mod history;
+mod learner;
 mod looks;
 mod optimise;
 mod places;
@@ -33,12 +35,14 @@ mod sigmoid;
 #[cfg(test)]
 mod tests;
 
+pub use belief::{Beliefs, TimeModel};
 pub use birth_death::{BirthDeath, BirthDeathFit, PairCounts, fit_pairs};
 pub use calibrate::{Calibration, ModelReport, Protocol, calibrate};
 pub use document::{Learned, LearnedClass, LearnedError, PlaceShare};
 pub use dwell::{Dwell, DwellData, DwellError};
 pub use fit::{DwellFit, fit_dwells};
 pub use history::{Histories, HistoryError, ObjectHistory, Spot, Stay, histories};
+pub use learner::{LearnError, LearnOptions, learn};
 pub use looks::{Look, LookPlan};
 pub use places::PlaceModel;
 pub use pool::Family;

@@ -4,7 +4,9 @@
 //! the system.
 //!
 //! - [`svg`]: a writer of SVG, in the style all our drawings share.
+//! - [`reliability`]: what was predicted against what came.
 //! - [`raster`]: SVG to PNG.
 
 pub mod raster;
+pub mod reliability;
 pub mod svg;
