@@ -26,6 +26,7 @@
 //! | [`document`] | the JSON documents of the command line | no |
 //! | [`history`] | diff, why, bisect | no |
 //! | [`learn`] | how long things stay, learned from logs; how good predictions are | no |
+//! | [`patrol`] | in which order to look into rooms | no |
 //! | [`wire`] | protobuf and CDR contracts to events and back | no |
 //! | [`interchange`] | scenes of others in and out: parsers and printers | no |
 //! | [`container`] | MCAP files as raw messages, whole or damaged | yes |
@@ -139,6 +140,7 @@ core_modules! {
     pub mod document;
     pub mod history;
     pub mod learn;
+    pub mod patrol;
     pub mod wire;
     pub mod interchange;
 }

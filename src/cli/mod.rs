@@ -15,6 +15,7 @@ mod ingest;
 mod learn_decay;
 mod log;
 mod output;
+mod patrol;
 mod progress;
 mod recover;
 mod replay;
@@ -72,6 +73,7 @@ enum Command {
     Export(export::Export),
     Ingest(ingest::Ingest),
     LearnDecay(learn_decay::LearnDecay),
+    Patrol(patrol::Patrol),
     Calibrate(calibrate::Calibrate),
     Demo(demo::Demo),
 }
@@ -128,6 +130,7 @@ impl Cli {
             Command::Export(args) => export::run(&args, out),
             Command::Ingest(args) => ingest::run(&args, out),
             Command::LearnDecay(args) => learn_decay::run(&args, out),
+            Command::Patrol(args) => patrol::run(&args, out),
             Command::Calibrate(args) => calibrate::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }

@@ -128,10 +128,10 @@ impl Learned {
         Some(own.or(self.common)?.here(1.0, after_s))
     }
 
-    /// Probability that it is where it was, by class, place and hour of the day; `None` without
-    /// counts.
+    /// Probability that it is where it was, by class, place and hour of the day; `None` where
+    /// the class was never counted.
     pub fn places(&self, class: &str, place: &str, hour: usize, after_s: f64) -> Option<f64> {
-        let known = !self.by_hour.gaps_s().is_empty();
+        let known = self.by_hour.knows(class);
         known.then(|| self.by_hour.stays(class, &place.to_owned(), hour, after_s))
     }
 

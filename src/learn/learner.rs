@@ -59,7 +59,11 @@ pub enum LearnError {
 pub fn learn(logs: &[Histories], options: &LearnOptions) -> Result<Learned, LearnError> {
     let mut dwells: BTreeMap<String, DwellData> = BTreeMap::new();
     let mut pairs: BTreeMap<String, PairCounts> = BTreeMap::new();
-    let gaps = options.plan.gaps.iter().map(|nanos| *nanos as f64 / 1e9).collect();
+    let mut plan = options.plan.clone();
+    // On the day of the look nothing can be asked a day later.
+    let longest = if plan.same_day { plan.last.max(12 * HOUR_NANOS) } else { u64::MAX };
+    plan.gaps.retain(|gap| *gap < longest);
+    let gaps = plan.gaps.iter().map(|nanos| *nanos as f64 / 1e9).collect();
     let mut by_hour = PlaceModel::new(gaps);
     for (n, log) in logs.iter().enumerate() {
         let Some((_, last)) = log.span else { continue };
@@ -67,7 +71,7 @@ pub fn learn(logs: &[Histories], options: &LearnOptions) -> Result<Learned, Lear
         let times = |(object, error)| LearnError::Times { object, error };
         log.dwells(end, &mut dwells).map_err(times)?;
         log.comings_and_goings(end, &mut pairs);
-        options.plan.visit(log, (Stamp::EPOCH, end), end, &mut |look| by_hour.look(look));
+        plan.visit(log, (Stamp::EPOCH, end), end, &mut |look| by_hour.look(look));
     }
     if dwells.values().all(DwellData::is_empty) {
         return Err(LearnError::Nothing);

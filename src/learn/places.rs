@@ -62,6 +62,12 @@ impl<P: Ord + Clone> PlaceModel<P> {
         places.entry(place.clone()).or_insert([0.0; 24])[hour] += times;
     }
 
+    /// Whether things of the class were ever counted, at each gap.
+    pub fn knows(&self, class: &str) -> bool {
+        let counted = |gap| self.by_class.contains_key(&(class.to_owned(), gap));
+        !self.gaps_s.is_empty() && (0..self.gaps_s.len()).all(counted)
+    }
+
     /// Probability that a thing that is at `place` at `hour` is there `after_s` seconds later:
     /// between the gaps it knows, in a straight line; beyond the last, that of the last.
     pub fn stays(&self, class: &str, place: &P, hour: usize, after_s: f64) -> f64 {

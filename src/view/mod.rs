@@ -4,9 +4,11 @@
 //! the system.
 //!
 //! - [`svg`]: a writer of SVG, in the style all our drawings share.
+//! - [`patrol`]: a walk through rooms on the floor plan.
 //! - [`reliability`]: what was predicted against what came.
 //! - [`raster`]: SVG to PNG.
 
+pub mod patrol;
 pub mod raster;
 pub mod reliability;
 pub mod svg;

@@ -6,6 +6,7 @@
 //! - `kill`: a recorder that is killed loses nothing it acknowledged.
 //! - `mutations`, `forged`: damaged and edited files.
 //! - `cli`: the program at its boundary.
+//! - `patrol_gain`: what a planned patrol is worth against a fixed round.
 //! - `python`: other readers agree.
 //! - `readme`: the front door tells the truth.
 //! - `fuzz_seeds`: what fuzzing starts from.
@@ -22,6 +23,7 @@ mod house;
 mod kill;
 mod laws;
 mod mutations;
+mod patrol_gain;
 mod python;
 mod readme;
 mod sha256;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules in the order of `lib.rs`, which is that of the alphabet; here by rank: a module may use
 /// only those before it.
-const RANKS: [&str; 22] = [
+const RANKS: [&str; 23] = [
     "bytes",
     "time",
     "geometry",
@@ -20,6 +20,7 @@ const RANKS: [&str; 22] = [
     "modality",
     "updater",
     "learn",
+    "patrol",
     "recording",
     "snapshot",
     "model",

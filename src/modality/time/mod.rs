@@ -51,32 +51,4 @@ pub fn half_life_s(decay_rate: f64) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    #[test]
-    fn the_decay_is_that_of_the_paper() {
-        assert!((probability_static(1e-4, 0.0) - 1.0).abs() < f64::EPSILON);
-        let expected = 2.0 / (1.0 + libm::exp(0.36));
-        assert!((probability_static(1e-4, 3600.0) - expected).abs() < f64::EPSILON);
-        assert!((probability_static(LN_3 / 60.0, 60.0) - 0.5).abs() < 1e-12);
-        assert!((probability_static(0.0, 1e12) - 1.0).abs() < f64::EPSILON);
-        assert!(probability_static(1.0, 1e9).abs() < f64::EPSILON);
-    }
-
-    #[test]
-    fn what_never_moves_never_crosses() {
-        assert_eq!(age_at(0.0, 0.5), None);
-        assert_eq!(age_at(1e-4, 0.0), None);
-        assert_eq!(half_life_s(0.0), None);
-    }
-
-    proptest! {
-        #[test]
-        fn the_age_of_a_probability_gives_it_back(rate in 1e-8..1.0_f64, p in 0.001..0.999_f64) {
-            let age = age_at(rate, p).expect("it crosses");
-            prop_assert!((probability_static(rate, age) - p).abs() < 1e-9);
-        }
-    }
-}
+mod tests;
