@@ -14,7 +14,9 @@ use crate::change::{
     Action, Cause, ChangeRecord, Claim, Departure, EvidenceRef, Modality, NodeRef, Occurred,
     Outcome, Primitive, Sighting, Step, Transaction, World,
 };
-use crate::event::{Interpretation, Status, Task, TaskStatus, Topic, Utterance};
+use crate::event::{
+    Interpretation, StaleTarget, Staleness, Status, Task, TaskStatus, Topic, Utterance,
+};
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, Layer, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
 use crate::time::Stamp;
@@ -353,6 +355,19 @@ prop_compose! {
         support in option::of(node_ref()),
     ) -> TaskStatus {
         TaskStatus { task_id, status, pose, object, room, support }
+    }
+}
+
+prop_compose! {
+    /// Any report of what became improbable.
+    pub fn staleness()(
+        threshold in 0.0..1.0_f64,
+        targets in vec((node_ref(), option::of(node_ref()), 0.0..1.0_f64, 0.0..1.0_f64, stamp()), 0..4),
+    ) -> Staleness {
+        let target = |(object, room, probability, decay_rate, last_observed)| {
+            StaleTarget { object, room, probability, decay_rate, last_observed }
+        };
+        Staleness { threshold, targets: targets.into_iter().map(target).collect() }
     }
 }
 

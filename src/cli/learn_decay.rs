@@ -9,7 +9,7 @@ use super::Outcome;
 use super::output::{Output, Style};
 use super::progress::Counted;
 use super::source;
-use crate::learn::{Histories, LearnOptions, Learned, histories, learn};
+use crate::learn::{Histories, LearnOptions, Learned, histories, learn, unify};
 use crate::modality::time::{HumanDuration, half_life_s};
 use crate::recording::Recording;
 use crate::time::{At, Span, Stamp};
@@ -104,6 +104,7 @@ pub fn read_all(
             worst = Outcome::Findings;
         }
     }
+    unify(&mut logs);
     Ok((logs, ends, worst))
 }
 

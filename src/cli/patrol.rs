@@ -15,7 +15,7 @@ use super::{Outcome, UsageError};
 use crate::change::NodeRef;
 use crate::document::RefDocument;
 use crate::graph::{NodeId, SceneGraph};
-use crate::patrol::{Gain, Plan, RoomGraph, plan};
+use crate::patrol::{Gain, Plan, RoomGraph, Wish, plan};
 use crate::time::At;
 use crate::view;
 
@@ -43,6 +43,9 @@ pub struct Patrol {
     /// How far the robot may walk
     #[arg(long, value_name = "METRES")]
     budget: Option<f64>,
+    /// Stay, unless this much is gained for each metre
+    #[arg(long, value_name = "GAIN", default_value_t = 0.0)]
+    worth: f64,
     /// What a look is worth
     #[arg(long, default_value = "stale")]
     gain: GainArg,
@@ -98,6 +101,9 @@ pub fn run(args: &Patrol, out: &mut Output) -> anyhow::Result<Outcome> {
     if let Some(budget) = args.budget.filter(|it| !(it.is_finite() && *it >= 0.0)) {
         return Err(UsageError(format!("--budget is {budget}: metres of at least 0")).into());
     }
+    if !(args.worth.is_finite() && args.worth >= 0.0) {
+        return Err(UsageError(format!("--worth is {}: a gain of at least 0", args.worth)).into());
+    }
     let learned = args.beliefs.learned()?;
     let beliefs = args.beliefs.beliefs(learned.as_ref());
     let recording = source::open(&args.recording.path)?;
@@ -105,22 +111,28 @@ pub fn run(args: &Patrol, out: &mut Output) -> anyhow::Result<Outcome> {
     let graph = state.graph();
     let from = room_named(graph, &args.from)?;
     let rooms = RoomGraph::of(graph)?;
-    let gain = match args.gain {
-        GainArg::Stale => Gain::Stale,
-        GainArg::Entropy => Gain::Entropy,
-    };
+    let wish = Wish { budget_m: args.budget, gain: args.gain(), worth_per_m: args.worth };
     let probability = |_, object: &_| beliefs.probability(graph, object, state.at);
-    let planned = plan(graph, &rooms, from, args.budget, gain, probability);
+    let planned = plan(graph, &rooms, from, &wish, probability);
     let planned = planned.context("the room is not among those of the graph")?;
     if args.json {
         out.json(&document(args, graph, &planned, state.at.to_string()))?;
     } else {
-        print(graph, &rooms, &planned, out)?;
+        print(graph, &rooms, &planned, args.gain(), out)?;
     }
     if let Some(path) = &args.out {
         draw(graph, &planned, path)?;
     }
     Ok(source::warn(&recording))
+}
+
+impl Patrol {
+    fn gain(&self) -> Gain {
+        match self.gain {
+            GainArg::Stale => Gain::Stale,
+            GainArg::Entropy => Gain::Entropy,
+        }
+    }
 }
 
 /// The room with this id or label.
@@ -180,6 +192,7 @@ fn print(
     graph: &SceneGraph,
     rooms: &RoomGraph,
     plan: &Plan,
+    gain: Gain,
     out: &mut Output,
 ) -> anyhow::Result<()> {
     const SHOWN: usize = 5;
@@ -194,14 +207,18 @@ fn print(
         let rest = stop.targets.len().saturating_sub(SHOWN);
         let more = if rest > 0 { format!(" and {rest} more") } else { String::new() };
         let room = out.paint(Style::Bold, &format!("{:24}", name(stop.room)));
-        let (metres, gain) = (stop.metres, stop.gain);
-        writeln!(out, "{n:2}  {room} {metres:6.1} m  {gain:5.2}  {}{more}", targets.join(", "))?;
+        let (metres, worth) = (stop.metres, stop.gain);
+        writeln!(out, "{n:2}  {room} {metres:6.1} m  {worth:5.2}  {}{more}", targets.join(", "))?;
     }
+    let unit = match gain {
+        Gain::Stale => "wrong beliefs expected",
+        Gain::Entropy => "bits expected",
+    };
     let best = match plan.exact {
         true => "no walk is better".to_owned(),
         false => format!("no walk is worth more than {:.2}", plan.bound),
     };
-    writeln!(out, "{:.2} wrong beliefs expected in {:.1} m; {best}", plan.gain, plan.metres)?;
+    writeln!(out, "{:.2} {unit} in {:.1} m; {best}", plan.gain, plan.metres)?;
     if rooms.open {
         writeln!(
             out,

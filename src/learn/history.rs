@@ -111,6 +111,16 @@ pub fn histories<L: EventLog>(
     }
 }
 
+/// Calls every class by one name, the first that it is met under, where logs spell it in several
+/// ways (see [`Label::same_class`]). One log does so by itself.
+pub fn unify(logs: &mut [Histories]) {
+    let mut names: BTreeMap<String, Label> = BTreeMap::new();
+    for history in logs.iter_mut().flat_map(|log| log.objects.values_mut()) {
+        let name = names.entry(history.label.class_key()).or_insert_with(|| history.label.clone());
+        history.label = name.clone();
+    }
+}
+
 /// How many of the last changes are kept for the transaction that follows them.
 const RECENT_CHANGES: usize = 1024;
 
@@ -250,6 +260,7 @@ impl Collector {
             history.decay_rate = self.world.known(*id).map_or(0.0, |object| object.decay_rate);
             history.movable = history.decay_rate > 0.0;
         }
+        unify(std::slice::from_mut(&mut self.out));
         self.out
     }
 }

@@ -41,7 +41,7 @@ pub use calibrate::{Calibration, ModelReport, Protocol, calibrate};
 pub use document::{Learned, LearnedClass, LearnedError, PlaceShare};
 pub use dwell::{Dwell, DwellData, DwellError};
 pub use fit::{DwellFit, fit_dwells};
-pub use history::{Histories, HistoryError, ObjectHistory, Spot, Stay, histories};
+pub use history::{Histories, HistoryError, ObjectHistory, Spot, Stay, histories, unify};
 pub use learner::{LearnError, LearnOptions, learn};
 pub use looks::{Look, LookPlan};
 pub use places::PlaceModel;

@@ -12,6 +12,9 @@
 //! programming over sets of rooms; beyond that the best of several greedy walks, told with a bound
 //! on what any walk could gain ([`Plan::bound`]).
 //!
+//! A walk that gains too little for each metre need not be made at all ([`Wish::worth_per_m`]):
+//! what is not looked at today is worth more tomorrow.
+//!
 //! Knows nothing of files. Deterministic: among equals the first room by id.
 
 mod exact;
@@ -22,5 +25,5 @@ mod rooms;
 mod tests;
 
 pub use exact::EXACT_ROOMS;
-pub use plan::{Gain, Plan, Stop, Target, plan};
+pub use plan::{Gain, Plan, Stop, Target, Wish, plan};
 pub use rooms::{RoomGraph, RoomsError};

@@ -26,6 +26,19 @@ impl Gain {
     }
 }
 
+/// What a patrol is to be like.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Wish {
+    /// How far it may go, metres: the most gain within that is sought. Without it, the most gain
+    /// per metre.
+    pub budget_m: Option<f64>,
+    /// What a look is worth.
+    pub gain: Gain,
+    /// A walk that gains less than this for each metre is not worth it: the robot stays, and more
+    /// can be gained later.
+    pub worth_per_m: f64,
+}
+
 /// Something to look at.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
@@ -100,8 +113,7 @@ pub fn plan(
     graph: &SceneGraph,
     rooms: &RoomGraph,
     from: NodeId,
-    budget: Option<f64>,
-    gain: Gain,
+    wish: &Wish,
     probability: impl Fn(NodeId, &Object) -> f64,
 ) -> Option<Plan> {
     let start = rooms.place(from)?;
@@ -115,9 +127,10 @@ pub fn plan(
     for targets in &mut targets {
         targets.sort_by(|a, b| a.probability.total_cmp(&b.probability).then(a.object.cmp(&b.object)));
     }
-    let worth = |targets: &Vec<Target>| targets.iter().map(|it| gain.of(it.probability)).sum();
+    let worth = |targets: &Vec<Target>| targets.iter().map(|it| wish.gain.of(it.probability)).sum();
     let gains: Vec<f64> = targets.iter().map(worth).collect();
-    Some(walk(rooms, start, &gains, budget).into_plan(rooms, &gains, targets))
+    let walk = walk(rooms, start, &gains, wish.budget_m);
+    Some(walk.if_worth(rooms, &gains, wish.worth_per_m).into_plan(rooms, &gains, targets))
 }
 
 /// A walk by numbers of rooms.
@@ -162,6 +175,17 @@ impl Field<'_> {
 }
 
 impl Walk {
+    /// This walk if it gains so much for each metre beyond the first room, else none.
+    fn if_worth(mut self, rooms: &RoomGraph, gains: &[f64], worth_per_m: f64) -> Self {
+        let from = self.way[0];
+        let field = Field { rooms, from, gains: gains.to_vec() };
+        let gain = field.gain(&self.way) - gains[from];
+        if gain < worth_per_m * field.length(&self.way) {
+            self.way.truncate(1);
+        }
+        self
+    }
+
     fn into_plan(self, rooms: &RoomGraph, gains: &[f64], mut targets: Vec<Vec<Target>>) -> Plan {
         let from = self.way.first().copied().unwrap_or_default();
         let (mut metres, mut total, mut last) = (0.0, 0.0, from);

@@ -41,11 +41,13 @@ proptest! {
         task in testing::task(),
         status in testing::task_status(),
         interpretation in testing::interpretation(),
+        staleness in testing::staleness(),
     ) {
         check(Stamp::EPOCH, &Event::Utterance(utterance))?;
         check(Stamp::EPOCH, &Event::Task(task))?;
         check(Stamp::EPOCH, &Event::TaskStatus(status))?;
         check(Stamp::EPOCH, &Event::Interpretation(interpretation))?;
+        check(Stamp::EPOCH, &Event::Staleness(staleness))?;
         check(Stamp::EPOCH, &Event::Tick)?;
     }
 

@@ -5,7 +5,7 @@ use insta::assert_snapshot;
 use super::{program, run};
 use crate::golden::in_snapshots;
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 17] = [
     "info",
     "log",
     "replay",
@@ -19,6 +19,9 @@ const COMMANDS: [&str; 14] = [
     "import",
     "export",
     "ingest",
+    "learn-decay",
+    "patrol",
+    "calibrate",
     "demo",
 ];
 

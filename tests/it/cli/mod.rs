@@ -6,6 +6,7 @@ mod help;
 mod ingest;
 mod json;
 mod streams;
+mod time;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;
