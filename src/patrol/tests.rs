@@ -57,9 +57,9 @@ proptest! {
         let best = brute(&field, goal, &mut vec![0], 7);
         prop_assert!(value.0 >= best.0 - 1e-9, "{value:?} {best:?} {:?}", found.way);
         prop_assert!(goal.allows(field.length(&found.way)));
-        let greedy = super::greedy::best_greedy(&field, goal);
+        let greedy = greedy::best_greedy(&field, goal);
         let greedy = goal.value(field.gain(&greedy), field.length(&greedy)).0;
-        let bound = super::greedy::bound(&field, goal);
+        let bound = greedy::bound(&field, goal);
         prop_assert!(greedy <= value.0 + 1e-9 && value.0 <= bound + 1e-9, "{greedy} {value:?} {bound}");
     }
 

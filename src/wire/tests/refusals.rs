@@ -274,7 +274,7 @@ fn an_input_that_cannot_be_is_refused() {
     refused(&Topic::Staleness, &stale(1.5, target.clone()), "Staleness.threshold is 1.5");
     refused(&Topic::Staleness, &stale(0.5, target.clone()), "StaleTarget.object is missing");
     let never = proto::StaleTarget { decay_rate_per_s: -1.0, ..target };
-    refused(&Topic::Staleness, &stale(0.5, never), "decay_rate_per_s is -1");
+    refused(&Topic::Staleness, &stale(0.5, never), "StaleTarget.decay_rate_per_s is -1");
     let text = "x".repeat((1 << 20) + 1);
     let long = proto::Utterance { speaker: String::new(), text };
     refused(&Topic::Utterance, &long, "Utterance.text holds more than 1048576");
