@@ -27,7 +27,8 @@ and it is predicted whether it is in the same place some time later. With --trai
 models learn from the looks before that point and are tested on those after it; --decay tests
 what was learned elsewhere. Log loss and Brier score: lower is better.
 
-With --presence a table of noisy detections and of the truth is used instead: the models learn
+With --presence a table of noisy detections and of the truth (landmark,kind,time_s,present) is
+used instead: the models learn
 from all detections before --split; after it they see those during visits only, and say all the
 time whether each landmark is there.
 
@@ -60,7 +61,7 @@ pub struct Calibrate {
     /// Never compare across midnight: every day begins anew
     #[arg(long)]
     same_day: bool,
-    /// Noisy detections and the truth (CSV: landmark,kind,time_s,present)
+    /// Noisy detections and the truth (CSV)
     #[arg(long, value_name = "CSV", conflicts_with_all = ["recordings", "train_until", "decay"])]
     presence: Option<PathBuf>,
     /// With --presence: learn up to then

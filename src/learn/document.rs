@@ -215,7 +215,7 @@ struct RawBirthDeath {
 struct RawHours {
     gaps: Vec<String>,
     /// Class, place, gap: for each hour with data `[hour, stays, looks]`.
-    stays: BTreeMap<String, BTreeMap<String, BTreeMap<String, Vec<[f64; 3]>>>>,
+    stays: Nested<Vec<[f64; 3]>>,
     /// Class, place: how often it was found there, by hour from 0 to 23.
     found: BTreeMap<String, BTreeMap<String, Vec<f64>>>,
 }

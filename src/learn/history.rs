@@ -294,18 +294,11 @@ impl ObjectHistory {
                 dwells.push(Dwell::at_least(seen.seconds_since(since))?);
                 since = *seen;
             }
-            match next {
-                Some(next) => {
-                    let until = stay.until.max(since).min(next.from);
-                    let from_s = until.seconds_since(since);
-                    let gone_s = next.from.seconds_since(since);
-                    dwells.push(Dwell::between(from_s, gone_s)?);
-                }
-                None => {
-                    let until = if complete { end } else { stay.until.min(end) };
-                    dwells.push(Dwell::at_least(until.seconds_since(since))?);
-                }
-            }
+            let until = if complete && next.is_none() { end } else { stay.until.min(end) };
+            let until = until.max(since);
+            let left_s = next.map_or(f64::INFINITY, |next| next.from.seconds_since(since));
+            let there_s = until.seconds_since(since).min(left_s);
+            dwells.push(Dwell::between(there_s, left_s)?);
         }
         Ok(dwells)
     }

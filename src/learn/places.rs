@@ -4,7 +4,7 @@
 //! four levels, each a special case of the one before: (g), (c, g), (c, p, g), (c, p, h, g). The
 //! probability at a level is its share of stays, drawn towards that of the level before by two
 //! pseudo-counts: with few data it is the wider level, with many its own (a hierarchical beta
-//! prior; MacKay and Peto, "A hierarchical Dirichlet language model", 1995). Where else it is,
+//! prior; `MacKay` and Peto, "A hierarchical Dirichlet language model", 1995). Where else it is,
 //! is told by where its class is at that hour.
 
 use std::collections::BTreeMap;

@@ -274,6 +274,8 @@ impl LastVisit {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write;
+
     use super::*;
 
     fn log() -> String {
@@ -281,9 +283,9 @@ mod tests {
         for n in 0..6000_u32 {
             let here = u8::from(n % 1000 < 300);
             let seen = if n % 10 == 3 { 1 - here } else { here };
-            text += &format!("cup,detection,{n},{seen}\n");
+            let _ = writeln!(text, "cup,detection,{n},{seen}");
             if n % 1000 == 0 || n % 1000 == 300 || n == 5999 {
-                text += &format!("cup,truth,{n},{here}\n");
+                let _ = writeln!(text, "cup,truth,{n},{here}");
             }
         }
         text

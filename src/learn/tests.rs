@@ -9,7 +9,7 @@ use crate::change::{
 };
 use crate::event::{Event, Logged};
 use crate::geometry::{Pose, Size};
-use crate::graph::{Label, Layer, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
+use crate::graph::{Label, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
 use crate::history::Slice;
 use crate::modality::time::LN_3;
 use crate::time::Stamp;

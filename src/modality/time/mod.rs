@@ -11,7 +11,7 @@
 //! for a look; what the look shows is for perception to say.
 //!
 //! # Static or not
-//! Two poses of an object count as one place while d = ‖X_t ⊟ X_t0‖ < ε ([`Stillness`]).
+//! Two poses of an object count as one place while `‖X_t ⊟ X_t0‖ < ε` ([`Stillness`]).
 //!
 //! # Cost
 //! The moment of the next crossing is known ahead: a queue of them is kept, and an event before

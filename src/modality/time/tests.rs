@@ -54,7 +54,7 @@ fn at(hours: f64) -> Stamp {
 fn status(object: usize, status: Status) -> Event {
     let named = NodeRef::id(id(Layer::Object, object));
     let room = (status == Status::Placed).then(|| NodeRef::id(id(Layer::Room, 1)));
-    let bare = TaskStatus::bare(&format!("t{object}"), status);
+    let bare = TaskStatus::bare(format!("t{object}"), status);
     Event::TaskStatus(TaskStatus { object: Some(named), room, ..bare })
 }
 
