@@ -61,6 +61,8 @@ pub(super) fn bound(field: &Field<'_>, goal: Goal) -> f64 {
     let mut offers: Vec<(f64, f64)> = (0..field.gains.len())
         .filter(|room| field.gains[*room] > 0.0)
         .map(|room| (field.gains[room], price(room)))
+        // A room without any way cannot be walked into.
+        .filter(|(_, metres)| metres.is_finite())
         .collect();
     offers.sort_by(|a, b| (b.0 / b.1).total_cmp(&(a.0 / a.1)));
     let Some(mut budget) = goal.budget else {

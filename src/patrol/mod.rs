@@ -26,4 +26,4 @@ mod tests;
 
 pub use exact::EXACT_ROOMS;
 pub use plan::{Gain, Plan, Stop, Target, Wish, plan};
-pub use rooms::{RoomGraph, RoomsError};
+pub use rooms::{MAX_ROOMS, RoomGraph, RoomsError, UNKNOWN_STEP_M};
