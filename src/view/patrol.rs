@@ -17,7 +17,12 @@ pub fn svg(graph: &SceneGraph, plan: &Plan) -> Option<String> {
     let most = plan.stops.iter().map(|stop| stop.gain).fold(1e-9, f64::max);
     for (id, room) in graph.rooms() {
         let gain: f64 = plan.stops.iter().filter(|it| it.room == id).map(|it| it.gain).sum();
-        draw_room(&mut svg, &frame, room, gain / most, gain);
+        draw_room(&mut svg, &frame, room, gain / most);
+    }
+    // Over all rooms, since boxes of rooms may overlap.
+    for (id, room) in graph.rooms() {
+        let gain: f64 = plan.stops.iter().filter(|it| it.room == id).map(|it| it.gain).sum();
+        name_room(&mut svg, &frame, room, gain);
     }
     let points: Vec<[f64; 2]> =
         plan.stops.iter().filter_map(|stop| frame.centre(graph, stop.room)).collect();
@@ -37,7 +42,7 @@ pub fn svg(graph: &SceneGraph, plan: &Plan) -> Option<String> {
     Some(svg.finish())
 }
 
-fn draw_room(svg: &mut Svg, frame: &Frame, room: &Region, share: f64, gain: f64) {
+fn draw_room(svg: &mut Svg, frame: &Frame, room: &Region, share: f64) {
     let Some([min, max]) = bounds(room) else { return };
     let ([x, bottom], [right, y]) = (frame.at(min), frame.at(max));
     let size = [right - x, bottom - y];
@@ -45,12 +50,18 @@ fn draw_room(svg: &mut Svg, frame: &Frame, room: &Region, share: f64, gain: f64)
     let mix = |from: f64, to: f64| (from + (to - from) * share) as u8;
     let (g, b) = (mix(255.0, 178.0), mix(255.0, 90.0));
     let fill = format!("#{:02x}{g:02x}{b:02x}", mix(255.0, 244.0));
-    svg.rect([x, y], size, &Look::fill(&fill).outlined("#555555", 2.0));
+    let look = Look::fill(&fill).outlined("#555555", 2.0).with("fill-opacity", "0.85");
+    svg.rect([x, y], size, &look);
+}
+
+fn name_room(svg: &mut Svg, frame: &Frame, room: &Region, gain: f64) {
+    let Some([min, max]) = bounds(room) else { return };
+    let ([x, bottom], [right, y]) = (frame.at(min), frame.at(max));
     let label = room.label.as_str();
-    let letters = (size[0] / text_width(label).max(0.1) * 0.9).min(18.0);
+    let letters = ((right - x) / text_width(label).max(0.1) * 0.9).min(18.0);
     svg.text([x + 8.0, y + letters + 6.0], letters, Anchor::Start, label, &Look::fill("#333333"));
     if gain > 0.0 {
-        let words = format!("{gain:.1} stale");
+        let words = format!("{gain:.1} to gain");
         svg.text([x + 8.0, bottom - 8.0], 14.0, Anchor::Start, &words, &Look::fill("#555555"));
     }
 }
