@@ -69,6 +69,10 @@
 //! - An object in the gripper stays in the graph as *held*, but is not among its objects: it is
 //!   temporarily removed, as the paper has it, and keeps its attributes and id.
 //! - A task status may itself name the object, room and support, so that one report is one event.
+//! - Time makes no change records: an object that has become improbable is reported on
+//!   `/evidence/staleness`, as a wish for a look, and stays where the graph has it.
+//! - The decay table and the threshold of staleness are off unless configured, so that what older
+//!   recordings derive stays as it was.
 //! - The MCAP framing is our own (record types are those of the `mcap` crate): see [`container`].
 //!
 //! # Use as a library
@@ -117,6 +121,8 @@
 //! | topological | of a pose: only the room or the support is known |
 //! | checkpoint | the full state after some event, a cache |
 //! | chain | running hash over the events |
+//! | stale | of a belief: probably no longer true |
+//! | dwell | how long a thing stayed, as far as two looks tell |
 
 macro_rules! core_modules {
     ($($(#[$meta:meta])* $vis:vis mod $name:ident;)*) => {
