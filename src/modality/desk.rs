@@ -11,6 +11,10 @@ use crate::event::{Event, Interpretation, Staleness};
 use crate::graph::NodeId;
 use crate::time::Stamp;
 
+/// Most steps of a transaction, so that readers take it. Only the rates of a huge initial graph
+/// are more, and they do not depend on each other.
+const STEPS_MAX: usize = 1 << 16;
+
 /// Takes the claims of one update, applies them to the world one after the other, and collects
 /// the records: evidence first, then changes, then one transaction.
 #[derive(Debug)]
@@ -95,12 +99,16 @@ impl<'a> Desk<'a> {
 
     /// The records of the update, in the order they stand in the log.
     pub fn into_events(self) -> Vec<Event> {
+        let (at, mut rest, mut transactions) = (self.at, self.steps, Vec::new());
+        while !rest.is_empty() {
+            let after = rest.split_off(rest.len().min(STEPS_MAX));
+            let steps = std::mem::replace(&mut rest, after);
+            transactions.push(Event::Transaction(Transaction { at, steps }));
+        }
         let changes = self.records.into_iter().map(Event::Change);
-        let transaction = (!self.steps.is_empty())
-            .then_some(Event::Transaction(Transaction { at: self.at, steps: self.steps }));
         let evidence = self.interpretations.into_iter().map(Event::Interpretation);
         let evidence = evidence.chain(self.stale.into_iter().map(Event::Staleness));
-        evidence.chain(changes).chain(transaction).collect()
+        evidence.chain(changes).chain(transactions).collect()
     }
 
     fn carry_out(&mut self, claim: &Claim) -> Result<Claim, Rejection> {

@@ -138,6 +138,19 @@ fn a_graph_gets_its_rates_from_the_table_and_says_so() {
 }
 
 #[test]
+fn the_rates_of_a_huge_graph_are_written_so_that_they_can_be_read() {
+    let table = r#"{"decay": {"classes": {}, "default": {"half_life": "5 days"}}}"#;
+    let mut updater = Updater::new(config(table));
+    let graph = graph(&vec![1.0; 70_000]);
+    let events = updater.update(at(0.0), Event::InitialGraph(graph)).unwrap();
+    let steps = |logged: &Logged| match &logged.event {
+        Event::Transaction(it) => it.steps.len(),
+        _ => 0,
+    };
+    assert_eq!(events.iter().map(steps).collect::<Vec<_>>(), [0, 65_536, 4_464]);
+}
+
+#[test]
 fn what_is_added_later_gets_its_rate_too() {
     let table = r#"{"decay": {"classes": {"mug": {"half_life": "2 hours"}}}}"#;
     let mut updater = Updater::new(config(table));
