@@ -7,7 +7,7 @@ use std::path::Path;
 use std::{env, fs};
 
 /// Contracts of the channels, by file stem; each holds one channel message.
-const CHANNELS: [&str; 10] = [
+const CHANNELS: [&str; 11] = [
     "graph_state",
     "utterance",
     "task",
@@ -15,6 +15,7 @@ const CHANNELS: [&str; 10] = [
     "tick",
     "language_reply",
     "interpretation",
+    "staleness",
     "change_record",
     "transaction",
     "checkpoint",

@@ -21,10 +21,12 @@
 //! | [`graph`] | the scene graph as a value, its canonical bytes, its hash | no |
 //! | [`change`] | change records, primitives, transactions, the planner between them | no |
 //! | [`event`] | everything that stands in a log, and the log's order | no |
-//! | [`modality`] | the detectors; robot action so far | no |
+//! | [`modality`] | the detectors: robot action, time | no |
 //! | [`updater`] | U: one input in, records out; where detectors meet the graph | no |
 //! | [`document`] | the JSON documents of the command line | no |
 //! | [`history`] | diff, why, bisect | no |
+//! | [`learn`] | how long things stay, learned from logs; how good predictions are | no |
+//! | [`patrol`] | in which order to look into rooms | no |
 //! | [`wire`] | protobuf and CDR contracts to events and back | no |
 //! | [`interchange`] | scenes of others in and out: parsers and printers | no |
 //! | [`container`] | MCAP files as raw messages, whole or damaged | yes |
@@ -68,6 +70,10 @@
 //! - An object in the gripper stays in the graph as *held*, but is not among its objects: it is
 //!   temporarily removed, as the paper has it, and keeps its attributes and id.
 //! - A task status may itself name the object, room and support, so that one report is one event.
+//! - Time makes no change records: an object that has become improbable is reported on
+//!   `/evidence/staleness`, as a wish for a look, and stays where the graph has it.
+//! - The decay table and the threshold of staleness are off unless configured, so that what older
+//!   recordings derive stays as it was.
 //! - The MCAP framing is our own (record types are those of the `mcap` crate): see [`container`].
 //!
 //! # Use as a library
@@ -116,6 +122,8 @@
 //! | topological | of a pose: only the room or the support is known |
 //! | checkpoint | the full state after some event, a cache |
 //! | chain | running hash over the events |
+//! | stale | of a belief: probably no longer true |
+//! | dwell | how long a thing stayed, as far as two looks tell |
 
 macro_rules! core_modules {
     ($($(#[$meta:meta])* $vis:vis mod $name:ident;)*) => {
@@ -138,6 +146,8 @@ core_modules! {
     pub mod updater;
     pub mod document;
     pub mod history;
+    pub mod learn;
+    pub mod patrol;
     pub mod wire;
     pub mod interchange;
 }

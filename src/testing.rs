@@ -15,7 +15,8 @@ use crate::change::{
     Outcome, Primitive, Sighting, Step, Transaction, World,
 };
 use crate::event::{
-    Interpretation, LanguageReply, Span, Status, Task, TaskStatus, Topic, Utterance,
+    Interpretation, LanguageReply, Span, StaleTarget, Staleness, Status, Task, TaskStatus, Topic,
+    Utterance,
 };
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, Layer, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
@@ -378,6 +379,19 @@ prop_compose! {
         chosen in vec(node_ref(), 0..3), candidates in vec(node_ref(), 0..3), why in ".{0,20}",
     ) -> Span {
         Span { role: role.into(), start, end, chosen, candidates, why }
+    }
+}
+
+prop_compose! {
+    /// Any report of what became improbable.
+    pub fn staleness()(
+        threshold in 0.0..1.0_f64,
+        targets in vec((node_ref(), option::of(node_ref()), 0.0..1.0_f64, 0.0..1.0_f64, stamp()), 0..4),
+    ) -> Staleness {
+        let target = |(object, room, probability, decay_rate, last_observed)| {
+            StaleTarget { object, room, probability, decay_rate, last_observed }
+        };
+        Staleness { threshold, targets: targets.into_iter().map(target).collect() }
     }
 }
 

@@ -8,6 +8,7 @@ use clap::Subcommand;
 use serde::Serialize;
 
 use super::Outcome;
+use super::decay::DecayArgs;
 use super::output::{Output, plain};
 use super::progress::bar;
 use super::replay::state_at;
@@ -64,6 +65,8 @@ struct Target {
     /// Configuration (JSON) to record with
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    #[command(flatten)]
+    decay: DecayArgs,
     /// Print one JSON document
     #[arg(long)]
     json: bool,
@@ -198,6 +201,7 @@ fn record(imported: Imported, target: &Target, out: &mut Output) -> anyhow::Resu
         }
         None => Config::default(),
     };
+    let config = target.decay.apply(config)?;
     let mut recorder = Recorder::create(&target.out, config, &RecorderOptions::default())?;
     let progress = bar("events recorded", imported.inputs.len() as u64);
     recorder.record(imported.start, Event::InitialGraph(imported.graph))?;

@@ -9,6 +9,7 @@ use anyhow::Context;
 use clap::ValueEnum;
 use serde::Serialize;
 
+use super::decay::DecayArgs;
 use super::language::LanguageArgs;
 use super::output::Output;
 use super::replay::state_at;
@@ -58,6 +59,8 @@ pub struct Ingest {
     config: Option<PathBuf>,
     #[command(flatten)]
     language: LanguageArgs,
+    #[command(flatten)]
+    decay: DecayArgs,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -233,9 +236,9 @@ impl Ingest {
         };
         let options = RecorderOptions { sync, ..RecorderOptions::default() };
         if Recorder::can_append(&self.out)? {
-            if self.graph.is_some() || self.config.is_some() {
+            if self.graph.is_some() || self.config.is_some() || !self.decay.is_empty() {
                 let what = "a recording that is gone on with has its graph and configuration already: \
-                            leave out --graph and --config";
+                            leave out --graph, --config, --decay and --stale-below";
                 return Err(UsageError(what.to_owned()).into());
             }
             return self.with_models(Recorder::append(&self.out, &options)?);
@@ -246,6 +249,7 @@ impl Ingest {
             }
             None => Config::default(),
         };
+        let config = self.decay.apply(config)?;
         let config = self.language.applied_to(config);
         // Before the file is made, so that wrong use leaves none.
         self.language.models(&config)?;

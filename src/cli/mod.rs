@@ -4,6 +4,8 @@
 //! rejections). Everything a command does is a documented function of the crate.
 
 mod bisect;
+mod calibrate;
+mod decay;
 mod demo;
 mod diff;
 mod export;
@@ -12,8 +14,10 @@ mod import;
 mod info;
 mod ingest;
 mod language;
+mod learn_decay;
 mod log;
 mod output;
+mod patrol;
 mod plan;
 mod progress;
 mod recover;
@@ -80,6 +84,9 @@ enum Command {
     Plan(plan::Plan),
     Render(render::Render),
     Tell(tell::Tell),
+    LearnDecay(learn_decay::LearnDecay),
+    Patrol(patrol::Patrol),
+    Calibrate(calibrate::Calibrate),
     Demo(demo::Demo),
 }
 
@@ -139,6 +146,9 @@ impl Cli {
             Command::Plan(args) => plan::run(&args, out),
             Command::Render(args) => render::run(&args, out),
             Command::Tell(args) => tell::run(&args, out),
+            Command::LearnDecay(args) => learn_decay::run(&args, out),
+            Command::Patrol(args) => patrol::run(&args, out),
+            Command::Calibrate(args) => calibrate::run(&args, out),
             Command::Demo(args) => demo::run(&args, out),
         }
     }

@@ -3,10 +3,12 @@
 use std::io::Write;
 
 use super::Outcome;
+use super::decay::BeliefArgs;
 use super::output::{Output, Style};
 use super::source::{self, RecordingArg, threads};
 use crate::graph::{Layer, NodeId, Object, SceneGraph};
 use crate::interchange::scene::SceneDocument;
+use crate::learn::Beliefs;
 use crate::recording::{Recording, State};
 use crate::time::{At, Stamp};
 
@@ -16,6 +18,7 @@ use crate::time::{At, Stamp};
 Examples:
   scenefold replay day.mcap                    the last state
   scenefold replay day.mcap --at 36h           after a day and a half
+  scenefold replay day.mcap --decay decay.json --time-model birth-death
   scenefold replay day.mcap --at c7 --json     right after change 7, as JSON
   scenefold replay day.mcap --json > scene.json && scenefold import scene scene.json -o new.mcap")]
 pub struct Replay {
@@ -24,6 +27,8 @@ pub struct Replay {
     /// The point: start, end, 12.5s, 36h, 65d, an RFC 3339 instant, #42, c7 or nanoseconds
     #[arg(long, value_name = "AT", default_value = "end")]
     at: At,
+    #[command(flatten)]
+    beliefs: BeliefArgs,
     /// Print one JSON document
     #[arg(long)]
     json: bool,
@@ -31,15 +36,16 @@ pub struct Replay {
 
 /// Runs `scenefold replay`.
 pub fn run(args: &Replay, out: &mut Output) -> anyhow::Result<Outcome> {
+    let learned = args.beliefs.learned()?;
+    let beliefs = args.beliefs.beliefs(learned.as_ref());
     let recording = source::open(&args.recording.path)?;
     let state = state_at(&recording, args.at)?;
-    let document = SceneDocument::of(state.graph(), state.at);
     if args.json {
-        out.json(&document)?;
+        out.json(&document(&state, beliefs))?;
     } else {
         let hash = state.graph().hash();
         writeln!(out, "{} (event #{}), state {hash}", state.at, state.order)?;
-        print_graph(state.graph(), state.at, out)?;
+        print_graph(state.graph(), beliefs, state.at, out)?;
     }
     Ok(worst(source::warn(&recording), &state))
 }
@@ -63,7 +69,23 @@ fn worst(outcome: Outcome, state: &State) -> Outcome {
     if state.uncertain.is_some() { Outcome::Findings } else { outcome }
 }
 
-fn print_graph(graph: &SceneGraph, now: Stamp, out: &mut Output) -> anyhow::Result<()> {
+/// The graph with the probabilities of a model.
+fn document(state: &State, beliefs: Beliefs<'_>) -> SceneDocument {
+    let graph = state.graph();
+    let mut document = SceneDocument::of(graph, state.at);
+    for entry in document.objects.iter_mut().chain(&mut document.held) {
+        let object = entry.id.and_then(|id| graph.object(id));
+        entry.probability = object.map(|object| beliefs.probability(graph, object, state.at));
+    }
+    document
+}
+
+fn print_graph(
+    graph: &SceneGraph,
+    beliefs: Beliefs<'_>,
+    now: Stamp,
+    out: &mut Output,
+) -> anyhow::Result<()> {
     for (id, room) in graph.rooms() {
         let heading = out.paint(Style::Bold, &format!("{} {id}", room.label));
         let mut about = Vec::new();
@@ -80,7 +102,8 @@ fn print_graph(graph: &SceneGraph, now: Stamp, out: &mut Output) -> anyhow::Resu
         let about = out.paint(Style::Dim, &about.join("; "));
         writeln!(out, "{heading}  {about}")?;
         for (id, object) in graph.objects().filter(|(_, object)| object.room == id) {
-            print_object(graph, id, object, now, out)?;
+            let fresh = beliefs.probability(graph, object, now);
+            print_object(graph, id, object, fresh, out)?;
         }
     }
     let mut held = graph.held().peekable();
@@ -88,7 +111,7 @@ fn print_graph(graph: &SceneGraph, now: Stamp, out: &mut Output) -> anyhow::Resu
         writeln!(out, "{}", out.paint(Style::Bold, "in the gripper"))?;
     }
     for (id, object) in held {
-        print_object(graph, id, object, now, out)?;
+        print_object(graph, id, object, beliefs.probability(graph, object, now), out)?;
     }
     Ok(())
 }
@@ -97,14 +120,13 @@ fn print_object(
     graph: &SceneGraph,
     id: NodeId,
     object: &Object,
-    now: Stamp,
+    fresh: f64,
     out: &mut Output,
 ) -> anyhow::Result<()> {
     let [x, y, z] = object.pose.position();
     let support = object.support.map_or(String::new(), |on| format!("on {}", name(graph, on)));
     let who = format!("{} {id}", object.label);
-    let fresh = object.probability_static(now);
-    let belief = match object.decay_rate > 0.0 {
+    let belief = match object.decay_rate > 0.0 || fresh < 1.0 {
         true => format!("{:3.0} %", 100.0 * fresh),
         false => "     ".to_owned(),
     };

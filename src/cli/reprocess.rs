@@ -7,6 +7,7 @@ use anyhow::Context;
 use serde::Serialize;
 
 use super::Outcome;
+use super::decay::DecayArgs;
 use super::output::{Output, Style};
 use super::progress::counter;
 use super::source::{self, RecordingArg, text};
@@ -34,6 +35,8 @@ pub struct Reprocess {
     /// all detectors
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+    #[command(flatten)]
+    decay: DecayArgs,
     /// Print one JSON document
     #[arg(long)]
     json: bool,
@@ -70,6 +73,7 @@ pub fn run(args: &Reprocess, out: &mut Output) -> anyhow::Result<Outcome> {
     if first_time {
         config.detectors = Detectors::All;
     }
+    let config = args.decay.apply(config)?;
     let options = RecorderOptions::default();
     let recorder = args.out.as_ref().map(|path| Recorder::create(path, config.clone(), &options));
     let mut recorder = recorder.transpose()?;

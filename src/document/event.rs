@@ -5,7 +5,8 @@ use serde::Serialize;
 use super::{ChangeDocument, EvidenceDocument, PoseDocument, PrimitiveDocument, RefDocument};
 use crate::change::{Cause, Step};
 use crate::event::{
-    Event, Interpretation, LanguageReply, Logged, SensorMessage, Span, Task, TaskStatus,
+    Event, Interpretation, LanguageReply, Logged, SensorMessage, Span, StaleTarget, Staleness, Task,
+    TaskStatus,
 };
 
 /// An event in its place in the log.
@@ -127,6 +128,13 @@ pub enum ContentDocument {
         #[serde(skip_serializing_if = "Vec::is_empty")]
         spans: Vec<SpanDocument>,
     },
+    /// Objects that are probably no longer where they were last observed.
+    Staleness {
+        /// The probability they fell below.
+        threshold: f64,
+        /// Which.
+        targets: Vec<StaleTargetDocument>,
+    },
     /// A change record.
     Change {
         /// The record.
@@ -170,6 +178,21 @@ impl SpanDocument {
     }
 }
 
+/// One object that is probably no longer where it was last observed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StaleTargetDocument {
+    /// The object.
+    pub object: RefDocument,
+    /// The room it was last observed in.
+    pub room: Option<RefDocument>,
+    /// How probable it is that it is still there.
+    pub probability: f64,
+    /// λ in 1/s.
+    pub decay_rate: f64,
+    /// When it was last observed.
+    pub last_observed: String,
+}
+
 /// A primitive and its cause.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StepDocument {
@@ -198,6 +221,19 @@ impl EventDocument {
             at: logged.at.to_string(),
             topic: logged.event.topic().name().into_owned(),
             content: ContentDocument::of(&logged.event),
+        }
+    }
+}
+
+impl StaleTargetDocument {
+    /// The document of a target.
+    pub fn of(target: &StaleTarget) -> Self {
+        Self {
+            object: RefDocument::of(&target.object),
+            room: RefDocument::maybe(target.room.as_ref()),
+            probability: target.probability,
+            decay_rate: target.decay_rate,
+            last_observed: target.last_observed.to_string(),
         }
     }
 }
@@ -233,6 +269,7 @@ impl ContentDocument {
             Event::Sensor(message) => Self::sensor(message),
             Event::LanguageReply(reply) => Self::language_reply(reply),
             Event::Interpretation(understood) => Self::interpretation(understood),
+            Event::Staleness(stale) => Self::staleness(stale),
             Event::Change(record) => Self::Change { change: Box::new(ChangeDocument::of(record)) },
             Event::Transaction(transaction) => {
                 Self::Transaction { steps: transaction.steps.iter().map(step).collect() }
@@ -282,6 +319,11 @@ impl ContentDocument {
             attempts: reply.attempts,
             latency_s: reply.latency_nanos as f64 / 1e9,
         }
+    }
+
+    fn staleness(stale: &Staleness) -> Self {
+        let targets = stale.targets.iter().map(StaleTargetDocument::of).collect();
+        Self::Staleness { threshold: stale.threshold, targets }
     }
 
     fn interpretation(understood: &Interpretation) -> Self {

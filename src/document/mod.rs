@@ -16,7 +16,9 @@ mod primitive;
 mod tests;
 
 pub use change::ChangeDocument;
-pub use event::{CauseDocument, ContentDocument, EventDocument, SpanDocument, StepDocument};
+pub use event::{
+    CauseDocument, ContentDocument, EventDocument, SpanDocument, StaleTargetDocument, StepDocument,
+};
 pub use parts::{
     EvidenceDocument, OccurredDocument, OrientationDocument, PoseDocument, RefDocument,
 };

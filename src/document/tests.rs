@@ -10,7 +10,7 @@ use crate::change::{
     Outcome, Primitive, Sighting, Step, Transaction,
 };
 use crate::event::{
-    Event, Interpretation, Logged, SensorMessage, Status, Task, TaskStatus, Utterance,
+    Event, Interpretation, Logged, SensorMessage, StaleTarget, Staleness, Status, Task, TaskStatus, Utterance,
 };
 use crate::geometry::{Pose, Size};
 use crate::graph::{Label, Node, NodeId, Object, Placement, PoseSource, Region, SceneGraph};
@@ -170,6 +170,16 @@ fn derived() -> Vec<Event> {
             note: "one mug".into(),
             spans: vec![],
         }),
+        Event::Staleness(Staleness {
+            threshold: 0.5,
+            targets: vec![StaleTarget {
+                object: node("mug", "O17"),
+                room: Some(node("kitchen", "R1")),
+                probability: 0.25,
+                decay_rate: 0.001,
+                last_observed: at(),
+            }],
+        }),
         Event::Change(ChangeRecord { seq: 7, at: at(), claim: claim(), outcome: Outcome::Applied }),
         Event::Transaction(Transaction {
             at: at(),
@@ -201,7 +211,8 @@ fn every_input_has_a_document_without_its_payload() {
 fn every_derived_record_has_a_document() {
     assert_snapshot!(documents(derived()), @r#"
     {"order":1,"at":"2026-01-05T08:00:12.5Z","topic":"/evidence/interpretation","event":"interpretation","of":{"topic":"/human/utterance","order":41},"object":{"id":"O17","label":"mug"},"source_room":null,"target_room":null,"support":null,"note":"one mug"}
-    {"order":2,"at":"2026-01-05T08:00:12.5Z","topic":"/change","event":"change","change":{"seq":7,"at":"2026-01-05T08:00:12.5Z","modality":"human","detector":"builtin/1","action":"moved","object":{"id":"O17","label":"mug"},"source_room":{"id":"R1","label":"kitchen"},"target_room":{"id":"R2","label":null},"support":{"id":"O3","label":"table"},"pose":{"position":[1.0,0.25,0.8],"orientation":{"w":1.0,"x":0.0,"y":0.0,"z":0.0}},"size":[0.1,0.1,0.12],"confidence":0.9,"occurred":{"not_before":null,"not_after":"2026-01-05T08:00:12.5Z"},"outcome":"applied","reason":null,"evidence":[{"topic":"/human/utterance","order":41}],"code":null,"held":false}}
-    {"order":3,"at":"2026-01-05T08:00:12.5Z","topic":"/primitive","event":"transaction","steps":[{"cause":{"change":7},"primitive":"remove","id":"O17","to":"gone","at":"2026-01-05T08:00:12.5Z"},{"cause":{"evidence":{"topic":"/human/utterance","order":41}},"primitive":"remove","id":"O17","to":"gone","at":"2026-01-05T08:00:12.5Z"}]}
+    {"order":2,"at":"2026-01-05T08:00:12.5Z","topic":"/evidence/staleness","event":"staleness","threshold":0.5,"targets":[{"object":{"id":"O17","label":"mug"},"room":{"id":"R1","label":"kitchen"},"probability":0.25,"decay_rate":0.001,"last_observed":"2026-01-05T08:00:12.5Z"}]}
+    {"order":3,"at":"2026-01-05T08:00:12.5Z","topic":"/change","event":"change","change":{"seq":7,"at":"2026-01-05T08:00:12.5Z","modality":"human","detector":"builtin/1","action":"moved","object":{"id":"O17","label":"mug"},"source_room":{"id":"R1","label":"kitchen"},"target_room":{"id":"R2","label":null},"support":{"id":"O3","label":"table"},"pose":{"position":[1.0,0.25,0.8],"orientation":{"w":1.0,"x":0.0,"y":0.0,"z":0.0}},"size":[0.1,0.1,0.12],"confidence":0.9,"occurred":{"not_before":null,"not_after":"2026-01-05T08:00:12.5Z"},"outcome":"applied","reason":null,"evidence":[{"topic":"/human/utterance","order":41}],"code":null,"held":false}}
+    {"order":4,"at":"2026-01-05T08:00:12.5Z","topic":"/primitive","event":"transaction","steps":[{"cause":{"change":7},"primitive":"remove","id":"O17","to":"gone","at":"2026-01-05T08:00:12.5Z"},{"cause":{"evidence":{"topic":"/human/utterance","order":41}},"primitive":"remove","id":"O17","to":"gone","at":"2026-01-05T08:00:12.5Z"}]}
     "#);
 }

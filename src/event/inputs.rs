@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::change::{EvidenceRef, NodeRef};
 use crate::geometry::Pose;
+use crate::time::Stamp;
 
 /// Longest name of a task or a speaker, in bytes.
 pub const MAX_NAME: usize = 64 << 10;
@@ -182,6 +183,30 @@ pub struct Span {
     pub candidates: Vec<NodeRef>,
     /// Why.
     pub why: String,
+}
+
+/// Objects that are probably no longer where they were last observed: targets to look at.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Staleness {
+    /// The probability they fell below, above 0 and below 1.
+    pub threshold: f64,
+    /// In the order in which they crossed it.
+    pub targets: Vec<StaleTarget>,
+}
+
+/// One of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StaleTarget {
+    /// The object.
+    pub object: NodeRef,
+    /// The room it was last observed in.
+    pub room: Option<NodeRef>,
+    /// How probable it is, at the log time, that it is still there: 0 to 1.
+    pub probability: f64,
+    /// λ in 1/s.
+    pub decay_rate: f64,
+    /// When it was last added, moved or seen.
+    pub last_observed: Stamp,
 }
 
 /// A message that is passed through as it came.

@@ -9,7 +9,10 @@ mod inputs;
 mod language;
 mod topic;
 
-pub use inputs::{MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, TooLong, Interpretation, SensorMessage, Span, Status, Task, TaskStatus, Utterance};
+pub use inputs::{
+    Interpretation, MAX_NAME, MAX_PAYLOAD, MAX_SENTENCE, SensorMessage, Span, StaleTarget, Staleness,
+    Status, Task, TaskStatus, TooLong, Utterance,
+};
 pub use language::{LanguageReply, MAX_ANSWER};
 pub use topic::{Role, Topic};
 
@@ -39,6 +42,8 @@ pub enum Event {
     LanguageReply(LanguageReply),
     /// `/evidence/interpretation`: what was understood of a task or a sentence.
     Interpretation(Interpretation),
+    /// `/evidence/staleness`: what is probably no longer where it was seen.
+    Staleness(Staleness),
     /// `/change`: the unified language.
     Change(ChangeRecord),
     /// `/primitive`: what the fold eats.
@@ -58,6 +63,7 @@ impl Event {
             Self::Sensor(message) => Topic::Sensor(message.topic.clone()),
             Self::LanguageReply(_) => Topic::Language,
             Self::Interpretation(_) => Topic::Interpretation,
+            Self::Staleness(_) => Topic::Staleness,
             Self::Change(_) => Topic::Change,
             Self::Transaction(_) => Topic::Primitive,
         }

@@ -37,6 +37,8 @@ pub enum Topic {
     Language,
     /// `/evidence/interpretation`
     Interpretation,
+    /// `/evidence/staleness`
+    Staleness,
     /// `/change`
     Change,
     /// `/primitive`
@@ -49,7 +51,7 @@ pub enum Topic {
 
 impl Topic {
     /// The topics with schemas of our own.
-    pub const OWN: [Self; 11] = [
+    pub const OWN: [Self; 12] = [
         Self::InitialGraph,
         Self::Utterance,
         Self::Task,
@@ -58,6 +60,7 @@ impl Topic {
         Self::TrueChange,
         Self::Language,
         Self::Interpretation,
+        Self::Staleness,
         Self::Change,
         Self::Primitive,
         Self::Checkpoint,
@@ -80,6 +83,7 @@ impl Topic {
             Self::TrueChange => "/truth/change",
             Self::Language => "/model/language",
             Self::Interpretation => "/evidence/interpretation",
+            Self::Staleness => "/evidence/staleness",
             Self::Change => "/change",
             Self::Primitive => "/primitive",
             Self::Checkpoint => "/checkpoint",
@@ -91,7 +95,9 @@ impl Topic {
     pub fn role(&self) -> Role {
         match self {
             Self::Language => Role::Model,
-            Self::Interpretation | Self::Change | Self::Primitive => Role::Derived,
+            Self::Interpretation | Self::Staleness | Self::Change | Self::Primitive => {
+                Role::Derived
+            }
             Self::Checkpoint => Role::Cache,
             Self::Sensor(name) if name.starts_with("/model/") => Role::Model,
             Self::Sensor(name) if name.starts_with("/evidence/") => Role::Derived,

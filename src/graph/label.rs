@@ -34,14 +34,19 @@ impl Label {
     /// Whether two labels name the same class when case, `_`, `-` and spaces are set aside, so
     /// that `tv_remote`, `TV remote` and `tvremote` are one.
     pub fn same_class(&self, other: &str) -> bool {
-        let plain = |text: &str| -> Vec<char> {
-            text.chars()
-                .filter(|c| !matches!(c, '_' | '-' | ' '))
-                .flat_map(char::to_lowercase)
-                .collect()
-        };
-        self.as_str() == other || plain(self.as_str()) == plain(other)
+        self.as_str() == other || class_key(self.as_str()) == class_key(other)
     }
+
+    /// What labels of the same class have in common: see [`Label::same_class`].
+    pub fn class_key(&self) -> String {
+        class_key(self.as_str())
+    }
+}
+
+/// The text of a label without case, `_`, `-` and spaces: equal for labels of the same class.
+pub fn class_key(text: &str) -> String {
+    let kept = text.chars().filter(|c| !matches!(c, '_' | '-' | ' '));
+    kept.flat_map(char::to_lowercase).collect()
 }
 
 impl fmt::Display for Label {

@@ -27,7 +27,7 @@ pub(crate) use canonical::{read_object_bytes, write_object_bytes};
 pub use edit::{MAX_NODES, MAX_PILE, Placement};
 pub use error::GraphError;
 pub use id::{Layer, NodeId, NodeIdError};
-pub use label::{Label, LabelError};
+pub use label::{Label, LabelError, class_key};
 pub use node::{Node, Object, PoseSource, Region};
 use slots::{ObjectSlot, RegionSlot, Slots};
 

@@ -3,12 +3,17 @@
 use std::borrow::Cow;
 
 use crate::change::{
-    Cause, ChangeRecord, Claim, EvidenceRef, NodeRef, Outcome, Plan, PlanConfig, Rejection, Step,
+    Cause, ChangeRecord, Claim, EvidenceRef, NodeRef, Outcome, Plan, PlanConfig, Primitive, Rejection,
+    Step,
     Transaction, World, plan,
 };
-use crate::event::{Event, Interpretation};
+use crate::event::{Event, Interpretation, Staleness};
 use crate::graph::NodeId;
 use crate::time::Stamp;
+
+/// Most steps of a transaction, so that readers take it. Only the rates of a huge initial graph
+/// are more, and they do not depend on each other.
+const STEPS_MAX: usize = 1 << 16;
 
 /// Takes the claims of one update, applies them to the world one after the other, and collects
 /// the records: evidence first, then changes, then one transaction.
@@ -20,6 +25,7 @@ pub struct Desk<'a> {
     /// Number of the last change of the log.
     changes: u64,
     interpretations: Vec<Interpretation>,
+    stale: Vec<Staleness>,
     records: Vec<ChangeRecord>,
     steps: Vec<Step>,
 }
@@ -27,8 +33,9 @@ pub struct Desk<'a> {
 impl<'a> Desk<'a> {
     /// A desk for the update at `at`; `changes` is the number of the last change so far.
     pub fn new(world: &'a mut World, config: &'a PlanConfig, at: Stamp, changes: u64) -> Self {
-        let (interpretations, records, steps) = (Vec::new(), Vec::new(), Vec::new());
-        Self { world, config, at, changes, interpretations, records, steps }
+        let (interpretations, stale) = (Vec::new(), Vec::new());
+        let (records, steps) = (Vec::new(), Vec::new());
+        Self { world, config, at, changes, interpretations, stale, records, steps }
     }
 
     /// The world as it is by now.
@@ -39,6 +46,11 @@ impl<'a> Desk<'a> {
     /// The time of the update.
     pub fn at(&self) -> Stamp {
         self.at
+    }
+
+    /// What the update did so far.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
     }
 
     /// Plans and applies `claim`; records it either way.
@@ -72,13 +84,31 @@ impl<'a> Desk<'a> {
         self.interpretations.push(interpretation);
     }
 
+    /// Records what is to be looked at.
+    pub fn report_stale(&mut self, stale: Staleness) {
+        self.stale.push(stale);
+    }
+
+    /// Sets λ of an object, in 1/s, for the reason given. What the graph refuses is left as it is.
+    pub fn set_decay(&mut self, cause: Cause, id: NodeId, decay_rate: f64, origin: String) {
+        let primitive = Primitive::SetDecay { id, decay_rate, origin };
+        if primitive.apply(self.world).is_ok() {
+            self.steps.push(Step { cause, primitive });
+        }
+    }
+
     /// The records of the update, in the order they stand in the log.
     pub fn into_events(self) -> Vec<Event> {
+        let (at, mut rest, mut transactions) = (self.at, self.steps, Vec::new());
+        while !rest.is_empty() {
+            let after = rest.split_off(rest.len().min(STEPS_MAX));
+            let steps = std::mem::replace(&mut rest, after);
+            transactions.push(Event::Transaction(Transaction { at, steps }));
+        }
         let changes = self.records.into_iter().map(Event::Change);
-        let transaction = (!self.steps.is_empty())
-            .then_some(Event::Transaction(Transaction { at: self.at, steps: self.steps }));
         let evidence = self.interpretations.into_iter().map(Event::Interpretation);
-        evidence.chain(changes).chain(transaction).collect()
+        let evidence = evidence.chain(self.stale.into_iter().map(Event::Staleness));
+        evidence.chain(changes).chain(transactions).collect()
     }
 
     fn carry_out(&mut self, claim: &Claim) -> Result<Claim, Rejection> {

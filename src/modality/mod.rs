@@ -7,5 +7,6 @@
 pub mod action;
 mod desk;
 pub mod human;
+pub mod time;
 
 pub use desk::Desk;

@@ -6,10 +6,15 @@ use crate::change::World;
 use crate::graph::{CanonicalError, StateHash};
 use crate::modality::action::ActionDetector;
 use crate::modality::human::HumanDetector;
+use crate::modality::time::TimeDetector;
 use crate::time::Stamp;
 
-/// Version of the bytes. A checkpoint of another version is ignored, for it is only a cache.
+/// Versions of the bytes. A checkpoint of another one is ignored, for it is only a cache. The
+/// memory of time stands only where the configuration asks for it, so that recordings without
+/// it are the same bytes for ever.
 const STATE_VERSION: u64 = 1;
+/// With the memory of time after that of actions.
+const STATE_VERSION_TIME: u64 = 2;
 
 /// Says that the memory of what was said follows. It is left out where there is none, so that
 /// checkpoints of recordings without language are what they always were.
@@ -19,7 +24,7 @@ const LANGUAGE_FOLLOWS: u64 = 1;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RestoreError {
     /// Written by another version of the program.
-    #[error("checkpoint bytes have version {found}, this program reads version 1")]
+    #[error("checkpoint bytes have version {found}, this program reads up to 2")]
     Version {
         /// The version found.
         found: u64,
@@ -38,12 +43,16 @@ impl Updater {
     /// [`Updater::to_bytes`], and the hash of the graph, which costs little beside them.
     pub fn to_bytes_and_hash(&self) -> (Vec<u8>, StateHash) {
         let mut out = Writer::default();
-        out.u64(STATE_VERSION);
+        let watches = self.config.stale_below.is_some();
+        out.u64(if watches { STATE_VERSION_TIME } else { STATE_VERSION });
         out.u64(self.order);
         out.u64(self.changes);
         out.u64(self.at.nanos());
         let hash = self.world.write_bytes(&mut out);
         self.action.write_bytes(&mut out);
+        if watches {
+            self.time.write_bytes(&mut out);
+        }
         if !(self.human.is_empty() && self.action.is_simple()) {
             out.u64(LANGUAGE_FOLLOWS);
             self.human.write_bytes(&mut out);
@@ -58,12 +67,21 @@ impl Updater {
         let (order, changes, at) = read_counters(&mut input)?;
         let world = World::read_bytes(&mut input)?;
         let mut action = ActionDetector::read_bytes(&mut input)?;
+        let has_time = Reader(bytes).u64() == Some(STATE_VERSION_TIME);
+        let remembered =
+            if has_time { Some(TimeDetector::read_bytes(&mut input)?) } else { None };
         let human = read_language(&mut input, &mut action)?;
         if !input.0.is_empty() {
             let what = "bytes follow the last memory";
             return Err(CanonicalError::Malformed { what }.into());
         }
-        Ok(Self { config, world, action, human, order, changes, at })
+        let time = match (config.stale_below, remembered) {
+            (Some(_), Some(remembered)) => remembered,
+            // The state of a recording that had no threshold, gone on with under one.
+            (Some(threshold), None) => TimeDetector::resumed(world.graph(), threshold, at),
+            (None, _) => TimeDetector::default(),
+        };
+        Ok(Self { config, world, action, human, time, order, changes, at })
     }
 
     /// Number of the last event, number of the last change and log time of the last event.
@@ -97,7 +115,7 @@ fn read_language(
 fn read_counters(input: &mut Reader<'_>) -> Result<(u64, u64, Stamp), RestoreError> {
     let malformed = CanonicalError::Malformed { what: "counters" };
     match input.u64() {
-        Some(STATE_VERSION) => {}
+        Some(STATE_VERSION | STATE_VERSION_TIME) => {}
         Some(found) => return Err(RestoreError::Version { found }),
         None => return Err(malformed.into()),
     }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::change::PlanConfig;
 use crate::geometry::{GeometryError, Size};
+use crate::modality::time::DecayTable;
 
 /// Who reads sentences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -36,6 +37,14 @@ pub struct Config {
     /// label that a model finds nearest; none if no model is asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub label_similarity: Option<f64>,
+    /// λ by class: set when a graph is taken over and when an object is added. Without a table,
+    /// λ is what the graph says, and [`Config::added_decay_rate`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay: Option<DecayTable>,
+    /// The probability below which an object is a target to look at, above 0 and below 1. Without
+    /// it, nothing is reported on `/evidence/staleness`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stale_below: Option<f64>,
     #[serde(skip)]
     added_size: CheckedSize,
 }
@@ -79,6 +88,9 @@ pub enum ConfigError {
     /// A similarity that is none.
     #[error("label_similarity is {0}: it must be a cosine above 0, at most 1")]
     Similarity(f64),
+    /// A threshold that is none.
+    #[error("stale_below is {0}: it must be a probability above 0 and below 1, such as 0.5")]
+    StaleBelow(f64),
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -104,6 +116,8 @@ impl Default for Config {
             detectors: Detectors::All,
             language: Language::Builtin,
             label_similarity: None,
+            decay: None,
+            stale_below: None,
             added_size,
         }
     }
@@ -117,6 +131,10 @@ impl Config {
         config.added_size = CheckedSize(Size::new(w, h, d)?);
         if !(config.added_decay_rate.is_finite() && config.added_decay_rate >= 0.0) {
             return Err(ConfigError::DecayRate(config.added_decay_rate));
+        }
+        let threshold = config.stale_below.filter(|it| !(*it > 0.0 && *it < 1.0));
+        if let Some(threshold) = threshold {
+            return Err(ConfigError::StaleBelow(threshold));
         }
         match config.label_similarity {
             Some(least) if !(least > 0.0 && least <= 1.0) => Err(ConfigError::Similarity(least)),
@@ -171,6 +189,9 @@ mod tests {
             (r#"{"speed": 1}"#, "speed"),
             (r#"{"language": "oracle"}"#, "oracle"),
             (r#"{"label_similarity": 0}"#, "label_similarity"),
+            (r#"{"stale_below": 1}"#, "stale_below"),
+            (r#"{"stale_below": -0.5}"#, "stale_below"),
+            (r#"{"decay": {"classes": {"mug": {"rate_per_s": -1}}}}"#, "mug: rate_per_s"),
         ] {
             let error = Config::from_json(json).unwrap_err().to_string();
             assert!(error.contains(field), "{error}");

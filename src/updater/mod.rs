@@ -12,6 +12,7 @@
 
 mod bytes;
 mod config;
+mod decay;
 mod language;
 
 use self::language::Answers;
@@ -25,6 +26,7 @@ use crate::graph::SceneGraph;
 use crate::modality::Desk;
 use crate::modality::action::ActionDetector;
 use crate::modality::human::HumanDetector;
+use crate::modality::time::TimeDetector;
 use crate::time::Stamp;
 
 /// The world, the detectors with their memory, and the counters of the log.
@@ -34,6 +36,8 @@ pub struct Updater {
     world: World,
     action: ActionDetector,
     human: HumanDetector,
+    /// Idle unless the configuration has a threshold of staleness.
+    time: TimeDetector,
     /// Number of the last event.
     order: u64,
     /// Number of the last change.
@@ -76,6 +80,7 @@ impl Updater {
             world: World::default(),
             action: ActionDetector::default(),
             human: HumanDetector::default(),
+            time: TimeDetector::default(),
             order: 0,
             changes: 0,
             at: Stamp::EPOCH,
@@ -168,7 +173,6 @@ impl Updater {
     fn derive(&mut self, order: u64, input: &Event, outputs: &[Event]) -> Vec<Event> {
         if let Event::InitialGraph(graph) = input {
             self.world = World::from_graph(graph.clone());
-            return Vec::new();
         }
         let plan = self.config.plan();
         let mut desk = Desk::new(&mut self.world, &plan, self.at, self.changes);
@@ -185,6 +189,18 @@ impl Updater {
                 answers.utterance(&mut self.human, &mut desk, order, &said.text);
             }
             _ => {}
+        }
+        if let Some(table) = &self.config.decay {
+            match input {
+                Event::InitialGraph(_) => decay::settle(&mut desk, table, order),
+                _ => decay::settle_added(&mut desk, table),
+            }
+        }
+        if let Some(threshold) = self.config.stale_below {
+            if matches!(input, Event::InitialGraph(_)) {
+                self.time.watch_all(desk.world().graph(), threshold);
+            }
+            self.time.update(&mut desk, threshold);
         }
         desk.into_events()
     }

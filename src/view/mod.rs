@@ -4,9 +4,13 @@
 //! the system.
 //!
 //! - [`svg`]: a writer of SVG, in the style all our drawings share.
+//! - [`patrol`]: a walk through rooms on the floor plan.
+//! - [`reliability`]: what was predicted against what came.
 //! - [`raster`]: SVG to PNG.
 //! - [`plan`]: the floor plan of a house or of a graph, and what changed in it.
 
+pub mod patrol;
 pub mod plan;
 pub mod raster;
+pub mod reliability;
 pub mod svg;

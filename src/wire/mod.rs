@@ -22,6 +22,7 @@ mod language;
 pub mod ros2;
 mod put;
 mod schema;
+mod staleness;
 mod transaction;
 
 #[cfg(test)]
@@ -70,6 +71,7 @@ pub fn encode_into(event: &Event, out: &mut Vec<u8>) {
         Event::Sensor(message) => out.extend_from_slice(&message.data),
         Event::LanguageReply(it) => append(&language::language_reply(it), out),
         Event::Interpretation(it) => append(&inputs::interpretation(it), out),
+        Event::Staleness(it) => append(&staleness::staleness(it), out),
         Event::Transaction(it) => transaction::put_transaction(it, out),
     }
 }
@@ -92,6 +94,7 @@ pub fn decode(topic: &Topic, at: Stamp, payload: &[u8]) -> Result<Event, WireErr
         Topic::TrueChange => Event::TrueChange(change_record::read_change_record(payload)?),
         Topic::Language => Event::LanguageReply(language::read_language_reply(payload)?),
         Topic::Interpretation => Event::Interpretation(inputs::read_interpretation(payload)?),
+        Topic::Staleness => Event::Staleness(staleness::read_staleness(payload)?),
         Topic::Change => Event::Change(change_record::read_change_record(payload)?),
         Topic::Primitive => Event::Transaction(decode_transaction(at, payload)?),
         Topic::Checkpoint | Topic::Sensor(_) => {

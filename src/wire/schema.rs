@@ -37,6 +37,7 @@ pub fn schema_of(topic: &Topic) -> Option<Schema> {
         Topic::Language => contract!("LanguageReply", "language_reply"),
         Topic::Interpretation => contract!("Interpretation", "interpretation"),
         Topic::Change | Topic::TrueChange => contract!("ChangeRecord", "change_record"),
+        Topic::Staleness => contract!("Staleness", "staleness"),
         Topic::Primitive => contract!("Transaction", "transaction"),
         Topic::Checkpoint => contract!("Checkpoint", "checkpoint"),
         Topic::Sensor(_) => return None,

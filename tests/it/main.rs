@@ -7,6 +7,7 @@
 //! - `mutations`, `forged`: damaged and edited files.
 //! - `cli`: the program at its boundary.
 //! - `language`: what models say, and what becomes of it.
+//! - `patrol_gain`: what a planned patrol is worth against a fixed round.
 //! - `python`: other readers agree.
 //! - `readme`: the front door tells the truth.
 //! - `fuzz_seeds`: what fuzzing starts from.
@@ -26,6 +27,7 @@ mod kill;
 mod language;
 mod laws;
 mod mutations;
+mod patrol_gain;
 mod python;
 mod readme;
 mod sha256;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// Modules in the order of `lib.rs`, which is that of the alphabet; here by rank: a module may use
 /// only those before it.
-const RANKS: [&str; 21] = [
+const RANKS: [&str; 23] = [
     "bytes",
     "time",
     "geometry",
@@ -19,6 +19,8 @@ const RANKS: [&str; 21] = [
     "history",
     "modality",
     "updater",
+    "learn",
+    "patrol",
     "recording",
     "snapshot",
     "model",

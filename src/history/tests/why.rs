@@ -87,6 +87,7 @@ fn the_story_ends_where_it_is_told_to() {
 fn what_never_changed_is_still_where_it_was() {
     assert_snapshot!(tell(&breakfast(), "TV-remote"), @r"
     tv remote O8: bedroom, on bed O6, since 2026-01-05T00:00:00Z (event #1)
+    It is probably no longer there: 9 % (half-life 3.1 h, the initial graph; last observed 2026-01-05 00:00:00).
 
     2026-01-05 00:00:00  #1    in the initial graph: bedroom, on bed O6
     ");
@@ -131,6 +132,7 @@ fn a_task_is_told_before_its_reports() {
     "#);
     assert_snapshot!(tell(&log, "O5"), @r#"
     mug O5: bedroom, since 2026-01-05T00:00:00Z (event #1)
+    It is probably no longer there: 9 % (half-life 3.1 h, the initial graph; last observed 2026-01-05 00:00:00).
 
     2026-01-05 00:00:00  #1    in the initial graph: bedroom
     2026-01-05 08:10:00  c3    a pick was claimed and rejected: mug is ambiguous: O4, O5

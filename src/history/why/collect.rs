@@ -4,9 +4,11 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use super::select::{Presence, node_ref, place};
-use super::{Entry, Initial, Moment, Sightings, State, Why, WhyError, is_decisive};
+use super::{
+    Belief, Entry, Initial, Moment, Sightings, Stale, State, Why, WhyError, is_decisive,
+};
 use crate::change::{Cause, ChangeRecord, NodeRef, Primitive, Step, Transaction, World};
-use crate::event::{Event, Logged};
+use crate::event::{Event, Logged, Staleness};
 use crate::graph::{Label, NodeId};
 use crate::history::log::walk;
 use crate::history::log::advance_in;
@@ -26,6 +28,7 @@ pub(super) fn collect<L: EventLog>(
         life.last = Moment::of(logged);
         match &logged.event {
             Event::Change(record) => life.change(world, logged, record),
+            Event::Staleness(stale) => life.stale(logged, stale),
             Event::Transaction(transaction) => {
                 let concerned = transaction.steps.iter().any(|it| touches(&it.primitive, id));
                 let before = concerned.then(|| Snapshot::of(world, id));
@@ -52,6 +55,7 @@ struct Life {
     label: Option<Label>,
     initial: Option<Initial>,
     entries: Vec<Entry>,
+    stale: Vec<Stale>,
     recent: VecDeque<ChangeRecord>,
     /// When it last came, went or moved.
     since: Option<Moment>,
@@ -77,8 +81,8 @@ impl Snapshot {
 impl Life {
     fn new(id: NodeId) -> Self {
         let (since, last) = (None, Moment::default());
-        let (entries, recent) = (Vec::new(), VecDeque::new());
-        Self { id, label: None, initial: None, entries, recent, since, last }
+        let (entries, stale, recent) = (Vec::new(), Vec::new(), VecDeque::new());
+        Self { id, label: None, initial: None, entries, stale, recent, since, last }
     }
 
     fn start(&mut self, world: &World, logged: &Logged) {
@@ -89,6 +93,32 @@ impl Life {
         let moment = Moment::of(logged);
         self.since = Some(moment);
         self.initial = Some(Initial { moment, place: place(world, self.id) });
+    }
+
+    fn stale(&mut self, logged: &Logged, stale: &Staleness) {
+        let named = stale.targets.iter().find(|target| target.object.id == Some(self.id));
+        self.stale.extend(named.map(|target| Stale {
+            moment: Moment::of(logged),
+            probability: target.probability,
+            threshold: stale.threshold,
+        }));
+    }
+
+    /// How far its place is to be believed at the end.
+    fn belief(&self, world: &World) -> Option<Belief> {
+        let object = world.graph().object(self.id).filter(|object| !object.is_held())?;
+        let set = self.entries.iter().rev().flat_map(|entry| entry.primitives.iter().rev());
+        let origin = set.filter_map(|primitive| match primitive {
+            Primitive::SetDecay { origin, .. } => Some(origin.clone()),
+            _ => None,
+        });
+        let unsaid = if self.initial.is_some() { "the initial graph" } else { "as it was added" };
+        Some(Belief {
+            probability: object.probability_static(self.last.at),
+            decay_rate: object.decay_rate,
+            origin: origin.into_iter().next().unwrap_or_else(|| unsaid.to_owned()),
+            last_observed: object.last_observed,
+        })
     }
 
     /// A change is kept for its transaction; a rejected one that names the node is an entry.
@@ -201,13 +231,15 @@ impl Life {
             return Err(WhyError::Unknown { wanted, similar: vec![] });
         }
         let presence = Presence::of(world, self.id);
+        let belief = self.belief(world);
         let node = NodeRef { id: Some(self.id), label: self.label };
         Ok(Why {
             node,
-            state: State { presence, since: self.since, place: place(world, self.id) },
+            state: State { presence, since: self.since, place: place(world, self.id), belief },
             upto: self.last,
             initial: self.initial,
             entries: self.entries,
+            stale: self.stale,
             namesakes: vec![],
         })
     }

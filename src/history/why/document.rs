@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Entry, Initial, State, Why};
+use super::{Entry, Initial, Stale, State, Why};
 use crate::document::{ChangeDocument, EventDocument, PrimitiveDocument, RefDocument};
 use crate::graph::NodeId;
 use crate::history::PlaceDocument;
@@ -22,6 +22,22 @@ pub struct WhyDocument {
     pub upto: u64,
     /// Others of the same name that never changed.
     pub namesakes: Vec<RefDocument>,
+    /// When it became improbable that it was still there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stale: Vec<StaleDocument>,
+}
+
+/// A report that an object had become improbable.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StaleDocument {
+    /// Number of the event.
+    pub order: u64,
+    /// Its time.
+    pub at: String,
+    /// How probable it was by then that it was still there.
+    pub probability: f64,
+    /// What it fell below.
+    pub threshold: f64,
 }
 
 /// How things stand with a node.
@@ -35,6 +51,18 @@ pub struct StateDocument {
     pub at: Option<String>,
     /// Where it is, or was last.
     pub place: Option<PlaceDocument>,
+    /// For an object that is there: how probable it is that it still is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probability: Option<f64>,
+    /// λ in 1/s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_rate: Option<f64>,
+    /// Where λ comes from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub decay_origin: Option<String>,
+    /// When it was last added, moved or seen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last_observed: Option<String>,
 }
 
 /// How a node was at the start.
@@ -94,17 +122,34 @@ impl WhyDocument {
             initial: why.initial.as_ref().map(InitialDocument::of),
             upto: why.upto.order,
             namesakes: why.namesakes.iter().map(RefDocument::of).collect(),
+            stale: why.stale.iter().map(StaleDocument::of).collect(),
         }
     }
 }
 
 impl StateDocument {
     fn of(state: &State) -> Self {
+        let belief = state.belief.as_ref();
         Self {
             presence: state.presence.as_str(),
             since: state.since.map(|since| since.order),
             at: state.since.map(|since| since.at.to_string()),
             place: state.place.as_ref().map(PlaceDocument::of),
+            probability: belief.map(|it| it.probability),
+            decay_rate: belief.map(|it| it.decay_rate),
+            decay_origin: belief.map(|it| it.origin.clone()),
+            last_observed: belief.map(|it| it.last_observed.to_string()),
+        }
+    }
+}
+
+impl StaleDocument {
+    fn of(stale: &Stale) -> Self {
+        Self {
+            order: stale.moment.order,
+            at: stale.moment.at.to_string(),
+            probability: stale.probability,
+            threshold: stale.threshold,
         }
     }
 }

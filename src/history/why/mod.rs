@@ -37,6 +37,8 @@ pub struct Why {
     pub initial: Option<Initial>,
     /// What concerns the node, in order.
     pub entries: Vec<Entry>,
+    /// When it became improbable, in order.
+    pub stale: Vec<Stale>,
     /// Others of the same name that never changed.
     pub namesakes: Vec<NodeRef>,
 }
@@ -75,6 +77,32 @@ pub struct State {
     pub since: Option<Moment>,
     /// Where it is; while held or absent, where it was last. Nothing for a region.
     pub place: Option<Place>,
+    /// How probable it is that it is still there; nothing for a region, or what is not there.
+    pub belief: Option<Belief>,
+}
+
+/// How far it is to be believed that an object is where the graph says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Belief {
+    /// p(static) = 2 / (1 + e^{λΔt}) at the end (paper, "Time").
+    pub probability: f64,
+    /// λ in 1/s.
+    pub decay_rate: f64,
+    /// Where λ comes from, in words.
+    pub origin: String,
+    /// When the object was last added, moved or seen.
+    pub last_observed: Stamp,
+}
+
+/// A report that the object had become improbable: a target to look at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stale {
+    /// The event.
+    pub moment: Moment,
+    /// How probable it was by then that it was still there.
+    pub probability: f64,
+    /// What it fell below.
+    pub threshold: f64,
 }
 
 /// One thing that happened to the node, or was said of it.

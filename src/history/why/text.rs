@@ -2,12 +2,18 @@
 
 use std::fmt;
 
-use super::story::{because, found, happened, time};
-use super::{Entry, Moment, Presence, Why};
+use super::story::{because, clean, found, happened, time};
+use super::{Entry, Moment, Presence, Stale, Why};
 use crate::change::Cause;
 
 /// Where the words of an entry begin: after the time and the number.
 const INDENT: usize = 27;
+
+/// Below this probability it is said that an object is probably elsewhere.
+const DOUBT: f64 = 0.5;
+
+/// λ times the half-life.
+const LN_3: f64 = 1.098_612_288_668_109_8;
 
 /// How many namesakes are named.
 const NAMESAKES: usize = 10;
@@ -16,6 +22,7 @@ const NAMESAKES: usize = 10;
 impl fmt::Display for Why {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.headline(f)?;
+        self.doubt(f)?;
         self.outcome(f)?;
         self.namesakes(f)?;
         writeln!(f)?;
@@ -25,7 +32,14 @@ impl fmt::Display for Why {
             let when = time(initial.moment.at);
             writeln!(f, "{when}  {number:<5} in the initial graph{place}")?;
         }
-        self.entries.iter().try_for_each(|entry| self.entry(f, entry))
+        let mut stale = self.stale.iter().peekable();
+        for entry in &self.entries {
+            while let Some(it) = stale.next_if(|it| it.moment.order < entry.moment.order) {
+                became_stale(f, it)?;
+            }
+            self.entry(f, entry)?;
+        }
+        stale.try_for_each(|it| became_stale(f, it))
     }
 }
 
@@ -53,6 +67,22 @@ impl Why {
             }
             _ => Ok(()),
         }
+    }
+
+    /// For what is probably elsewhere by now.
+    fn doubt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(belief) = self.state.belief.as_ref().filter(|it| it.probability < DOUBT) else {
+            return Ok(());
+        };
+        let percent = 100.0 * belief.probability;
+        let hours = (belief.decay_rate > 0.0).then(|| LN_3 / belief.decay_rate / 3600.0);
+        let half_life = hours.map_or(String::new(), |it| format!("half-life {it:.1} h, "));
+        writeln!(
+            f,
+            "It is probably no longer there: {percent:.0} % ({half_life}{}; last observed {}).",
+            clean(&belief.origin),
+            time(belief.last_observed)
+        )
     }
 
     /// For what is not there: what took it away, and what has been said since.
@@ -91,6 +121,13 @@ impl Why {
         let details = [because(entry), found(self, entry)];
         details.iter().flatten().try_for_each(|words| writeln!(f, "{:INDENT$}{words}", ""))
     }
+}
+
+fn became_stale(f: &mut fmt::Formatter<'_>, stale: &Stale) -> fmt::Result {
+    let number = format!("#{}", stale.moment.order);
+    let [percent, below] = [stale.probability, stale.threshold].map(|it| 100.0 * it);
+    let when = time(stale.moment.at);
+    writeln!(f, "{when}  {number:<5} a target to look at: {percent:.0} %, below {below:.0} %")
 }
 
 /// `c36`, or the event where no change was the cause.

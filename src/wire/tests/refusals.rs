@@ -269,6 +269,12 @@ fn an_input_that_cannot_be_is_refused() {
     let unknown = proto::TaskStatus { status: 6, ..Default::default() };
     refused(&Topic::TaskStatus, &unknown, "TaskStatus.status is 6: it must be 1 (started)");
     refused(&Topic::Interpretation, &proto::Interpretation::default(), "Interpretation.of is");
+    let stale = |threshold, target| proto::Staleness { threshold, targets: vec![target] };
+    let target = proto::StaleTarget::default();
+    refused(&Topic::Staleness, &stale(1.5, target.clone()), "Staleness.threshold is 1.5");
+    refused(&Topic::Staleness, &stale(0.5, target.clone()), "StaleTarget.object is missing");
+    let never = proto::StaleTarget { decay_rate_per_s: -1.0, ..target };
+    refused(&Topic::Staleness, &stale(0.5, never), "StaleTarget.decay_rate_per_s is -1");
     let text = "x".repeat((1 << 20) + 1);
     let long = proto::Utterance { speaker: String::new(), text };
     refused(&Topic::Utterance, &long, "Utterance.text holds more than 1048576");

@@ -42,12 +42,14 @@ proptest! {
         status in testing::task_status(),
         interpretation in testing::interpretation(),
         reply in testing::language_reply(),
+        staleness in testing::staleness(),
     ) {
         check(Stamp::EPOCH, &Event::LanguageReply(reply))?;
         check(Stamp::EPOCH, &Event::Utterance(utterance))?;
         check(Stamp::EPOCH, &Event::Task(task))?;
         check(Stamp::EPOCH, &Event::TaskStatus(status))?;
         check(Stamp::EPOCH, &Event::Interpretation(interpretation))?;
+        check(Stamp::EPOCH, &Event::Staleness(staleness))?;
         check(Stamp::EPOCH, &Event::Tick)?;
     }
 

@@ -24,6 +24,9 @@ const COMMANDS: &[&str] = &[
     "plan",
     "render",
     "tell",
+    "learn-decay",
+    "patrol",
+    "calibrate",
     "demo",
 ];
 

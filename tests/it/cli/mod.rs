@@ -9,6 +9,7 @@ mod json;
 mod render;
 mod streams;
 mod tell;
+mod time;
 
 use std::path::{Path, PathBuf};
 use std::process::Output;

@@ -28,7 +28,7 @@ fn a_seed_gives_the_same_noise_each_time() {
         let file = folder.path().join(name);
         let mut command = program();
         command.args(["render", "apartment", "--pose", "1,1,1.2,45,-10", "--size", "32x24", "-o"]);
-        assert!(command.arg(&file).args(noise).status().unwrap().success());
+        assert!(command.arg(&file).args(noise).output().unwrap().status.success());
         std::fs::read(file).unwrap()
     };
     let noisy = take("a.png", &["--noise", "3"]);
