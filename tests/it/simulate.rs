@@ -97,7 +97,7 @@ fn the_recording_holds_inputs_only_and_the_truth_is_apart() {
     }
     let forbidden = ["/change", "/primitive", "/truth", "/evidence", "/model"];
     let leaked = |topic: &&str| forbidden.iter().any(|prefix| topic.starts_with(prefix));
-    assert!(!topics.iter().any(|topic| leaked(topic)), "{topics:?}");
+    assert!(!topics.iter().any(leaked), "{topics:?}");
     // The graph that the robot starts from is that of the truth.
     let start =
         |path: &Path| Recording::open(path).unwrap().state_at(At::Start, 1).unwrap().graph().hash();

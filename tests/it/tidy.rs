@@ -78,7 +78,12 @@ fn is_test(name: &str) -> bool {
 
 /// The part of a file before its tests.
 fn before_tests(text: &str) -> &str {
-    text.split("#[cfg(test)]\nmod tests {").next().unwrap()
+    let Some(end) = text.rfind("\nmod tests {") else { return text };
+    match text[..end].rfind("#[cfg(test)]") {
+        // Nothing but attributes and comments stands between the two.
+        Some(start) if !text[start..end].contains('}') => &text[..start],
+        _ => text,
+    }
 }
 
 /// What a line names after `crate::`.

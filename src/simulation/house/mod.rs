@@ -34,7 +34,7 @@ pub use file::{
 };
 pub use from_graph::{FromGraph, from_graph};
 pub use load::{FileKind, Loaded, kind, load, load_reported};
-pub use space::{Misfit, Space, SurfaceInWorld, around as footprint};
+pub use space::{Misfit, Space, SurfaceInWorld, TOUCH_M, around as footprint};
 pub use structure::Slab;
 
 /// One storey, known to be possible: no rooms overlap, nothing floats or stands in a wall.

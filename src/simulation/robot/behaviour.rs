@@ -31,9 +31,9 @@ const BODY_HEIGHT_M: f64 = 1.4;
 /// It drives over what is lower than this, metres.
 const STEP_M: f64 = 0.03;
 /// Half the picture, and some to spare: what one look covers to either side, radians.
-const LOOK_HALF: [f64; 2] = [0.42, 0.28];
-/// A look takes this long, seconds: two pictures at 2 Hz.
-const LOOK_S: f64 = 1.1;
+const LOOK_HALF: [f64; 2] = [0.5, 0.36];
+/// A look takes this long, seconds: two pictures at 2 Hz, with the turn of the head.
+const LOOK_S: f64 = 0.8;
 
 /// The robot's mind.
 #[derive(Clone, Debug)]
@@ -46,7 +46,10 @@ pub struct Mind {
     rounds_left: u32,
     /// Viewpoints of the room it is in that are still to be taken.
     views: VecDeque<[f64; 2]>,
-    /// Where things stood when the robot learned the house: what it goes to look at.
+    /// The room they are in.
+    room: usize,
+    /// Where things that can be moved, and what they can be put on, stood when the robot learned
+    /// the house, with their rooms: what it goes to look at.
     targets: Vec<(usize, [f64; 3])>,
     /// The floor, and what it was made for.
     floor: Option<(Vec<Block>, Grid)>,
@@ -69,8 +72,11 @@ enum Stage {
 impl Mind {
     /// A mind that knows the house as it is now.
     pub fn new(config: RobotConfig, world: &TrueWorld) -> Self {
+        let worth_a_look =
+            |n: &usize| world.thing(*n).movable || !world.thing(*n).surfaces.is_empty();
         let targets = world
             .present()
+            .filter(worth_a_look)
             .map(|n| (world.thing(n).room, world.thing(n).pose.position()))
             .collect();
         Self {
@@ -80,6 +86,7 @@ impl Mind {
             doing: None,
             left: VecDeque::new(),
             views: VecDeque::new(),
+            room: 0,
             targets,
             floor: None,
         }
@@ -248,6 +255,7 @@ impl Mind {
             }
             tried += 1;
             let room = self.left.pop_front()?;
+            self.room = room;
             let targets: Vec<[f64; 2]> = self
                 .targets
                 .iter()
@@ -276,6 +284,7 @@ impl Mind {
         let mut left: Vec<(f64, f64)> = self
             .targets
             .iter()
+            .filter(|(of, _)| *of == self.room)
             .filter(|(_, at)| (0.3..3.5).contains(&distance(point, [at[0], at[1]])))
             .map(|(_, at)| {
                 let bearing = libm::atan2(at[1] - point[1], at[0] - point[0]);

@@ -30,8 +30,8 @@ impl Default for BodyConfig {
     fn default() -> Self {
         Self {
             radius_m: 0.22,
-            speed_m_s: 0.7,
-            turn_rad_s: 1.6,
+            speed_m_s: 0.9,
+            turn_rad_s: 2.0,
             head_rad_s: 2.0,
             camera_height_m: 1.3,
             reach_m: 1.1,

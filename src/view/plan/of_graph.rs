@@ -9,8 +9,9 @@ use crate::time::Stamp;
 const STILL_M: f64 = 0.02;
 
 impl Plan {
-    /// The plan of a graph. Its rooms are their boxes, made to meet where they nearly do; its
-    /// doors stand where rooms give access. What is in the gripper is left out.
+    /// The plan of a graph. Its rooms are their boxes, made to meet where they nearly do. A graph
+    /// says which rooms give access to each other, not where: a door is drawn where the shared
+    /// wall is free. What is in the gripper is left out.
     pub fn of_graph(graph: &SceneGraph, title: &str) -> Self {
         let mut plan = Self { title: title.to_owned(), ..Self::default() };
         let extents = graph.rooms().filter(|(_, room)| room.extent.is_some()).count();

@@ -29,7 +29,6 @@ fn the_embedded_contracts_change_only_on_purpose() {
     scenefold.v1.ChangeRecord 2215 50773ac630fb7f97
     scenefold.v1.LanguageReply 1388 79435683af9938d8
     scenefold.v1.Interpretation 1623 b96928d09f4d58ce
-    scenefold.v1.Interpretation 1392 7e22aaf4aa066420
     scenefold.v1.Staleness 1422 c262adb5fc19d140
     scenefold.v1.ChangeRecord 2215 50773ac630fb7f97
     scenefold.v1.Transaction 2694 360e281e76a343ce

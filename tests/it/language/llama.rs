@@ -31,7 +31,7 @@ fn a_real_server_answers_to_the_schema() {
     let path = folder.path().join("a.mcap");
     let mut recorder = Recorder::create(&path, server_config(), &MANY_CHECKPOINTS).unwrap();
     recorder.record(START, Event::InitialGraph(house())).unwrap();
-    let timeout = Duration::from_secs(120);
+    let timeout = Duration::from_mins(2);
     let options = ChatOptions { timeout, max_tokens: 4096, ..ChatOptions::default() };
     let chat = Chat::new(Endpoint::new(&base).unwrap(), "noise", None, options);
     recorder.set_language(Box::new(chat));

@@ -16,18 +16,18 @@ use crate::laws::cases;
 
 /// Answers with one text after the other, or with errors.
 pub struct Parrot {
-    answers: std::vec::IntoIter<Result<String, String>>,
+    answers: std::collections::VecDeque<Result<String, String>>,
 }
 
 impl Parrot {
     pub fn new(answers: &[Result<String, String>]) -> Self {
-        Self { answers: answers.to_vec().into_iter() }
+        Self { answers: answers.iter().cloned().collect() }
     }
 }
 
 impl LanguageModel for Parrot {
     fn answer(&mut self, request: &LanguageRequest) -> LanguageReply {
-        let answer = self.answers.next().unwrap_or_else(|| Err("out of words".to_owned()));
+        let answer = self.answers.pop_front().unwrap_or_else(|| Err("out of words".to_owned()));
         LanguageReply {
             of: EvidenceRef { topic: "/nowhere".into(), order: 99 },
             back_end: "parrot/1".into(),
