@@ -22,6 +22,8 @@ run import actions "$day" \
     --places "$data/homer_plus/extra_places.csv" \
     --initial "$data/homer_plus/initial_a.csv" \
     -o "$out/household_day.mcap"
+run simulate --seed 1 -o "$out/paper_mission.mcap"
+rm "$out/paper_mission.truth.mcap"
 run import spark-dsg "$data/spark_dsg/apartment_dsg.json" -o "$out/hydra_apartment.mcap"
 SCENEFOLD_MAKE_RECORDINGS="$out" cargo test --quiet --test it synthetic
 sha256sum "$out"/*.mcap

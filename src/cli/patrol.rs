@@ -43,8 +43,9 @@ pub struct Patrol {
     /// How far the robot may walk
     #[arg(long, value_name = "METRES")]
     budget: Option<f64>,
-    /// Stay, unless this much is gained for each metre
-    #[arg(long, value_name = "GAIN", default_value_t = 0.0)]
+    /// Stay, unless this much is gained for each metre: what is not looked at now is worth more
+    /// later; 0 always goes
+    #[arg(long, value_name = "GAIN", default_value_t = 0.2)]
     worth: f64,
     /// What a look is worth
     #[arg(long, default_value = "stale")]

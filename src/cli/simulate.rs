@@ -28,6 +28,7 @@ Examples:
   scenefold reprocess in.mcap -o mission.mcap                let the robot notice what changed
   scenefold simulate --house loft --random 3 --seed 7 -o r.mcap
   scenefold simulate --scenario mine.json -o mine.mcap
+  scenefold simulate --round kitchen,bathroom -o walk.mcap   rooms in the order of a patrol
   scenefold simulate --random 2 --seed 5 --print             the scenario, to start from
   scenefold log in.truth.mcap                                what really changed")]
 pub struct Simulate {
@@ -46,6 +47,9 @@ pub struct Simulate {
     /// New recording; the truth goes beside it
     #[arg(short, long, value_name = "REC", required_unless_present = "print")]
     out: Option<PathBuf>,
+    /// Rooms that the robot goes round, in this order, as `scenefold patrol` plans them
+    #[arg(long, value_name = "ROOM,…", value_delimiter = ',')]
+    round: Vec<String>,
     /// Sensors without noise
     #[arg(long)]
     no_noise: bool,
@@ -148,6 +152,9 @@ impl Simulate {
         if let Some(count) = self.random {
             let draw = Draw { removed: count, moved: count, added: count, ..Draw::default() };
             scenario = generate(&scenario.house, &house, self.seed.unwrap_or(0), draw);
+        }
+        if !self.round.is_empty() {
+            scenario.robot.round.clone_from(&self.round);
         }
         self.adjust(&mut scenario);
         Ok((scenario, house))

@@ -261,6 +261,12 @@ impl Scenario {
         serde_json::from_str(text)
     }
 
+    /// The JSON Schema of scenario files.
+    pub fn schema() -> String {
+        let schema = schemars::schema_for!(Scenario);
+        serde_json::to_string_pretty(&schema).expect("a schema always has a JSON form") + "\n"
+    }
+
     /// The scenario as a file, every value written out.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("numbers and texts always have a JSON form")

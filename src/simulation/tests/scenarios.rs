@@ -83,6 +83,18 @@ fn the_papers_mission_can_happen_with_any_seed() {
 }
 
 #[test]
+fn the_schema_of_scenarios_is_the_committed_one() {
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/scenario.schema.json");
+    if std::env::var_os("SCENEFOLD_WRITE_SCHEMAS").is_some() {
+        std::fs::write(&path, Scenario::schema()).unwrap();
+    }
+    let committed = std::fs::read_to_string(path).unwrap();
+    let mend = "run the test with SCENEFOLD_WRITE_SCHEMAS=1 and commit the file";
+    assert!(committed == Scenario::schema(), "{mend}");
+}
+
+#[test]
 fn a_random_scenario_reads_back_from_its_file() {
     let house = built_in("apartment");
     let scenario = generate("apartment", &house, 3, Draw::default());
