@@ -21,7 +21,7 @@
 //! | [`graph`] | the scene graph as a value, its canonical bytes, its hash | no |
 //! | [`change`] | change records, primitives, transactions, the planner between them | no |
 //! | [`event`] | everything that stands in a log, and the log's order | no |
-//! | [`modality`] | the detectors: robot action, time | no |
+//! | [`modality`] | the detectors: robot action, human language, time | no |
 //! | [`updater`] | U: one input in, records out; where detectors meet the graph | no |
 //! | [`document`] | the JSON documents of the command line | no |
 //! | [`history`] | diff, why, bisect | no |
@@ -31,7 +31,7 @@
 //! | [`interchange`] | scenes of others in and out: parsers and printers | no |
 //! | [`container`] | MCAP files as raw messages, whole or damaged | yes |
 //! | [`recording`] | write, replay, seek, verify, recover, reprocess | yes |
-//! | [`model`] | language models: a chat server | yes |
+//! | [`model`] | language models: a chat server, label embeddings | yes |
 //! | [`simulation`] | a house, its people, its robot and what the camera sees | at the edge |
 //! | [`snapshot`] | a recording as text, for regression tests | no |
 //! | [`view`] | floor plans and diagrams: SVG, PNG | no |

@@ -25,6 +25,7 @@ Examples:
   scenefold plan my_house.json -o plan.png             a house file, a VirtualHome graph or a scene
   scenefold plan day.mcap --at 8h -o morning.png       a state of a recording
   scenefold plan day.mcap --since start -o changed.png what was added, removed and moved since
+  scenefold plan mission.mcap --path -o way.png        the way of the robot, from /tf
   scenefold plan day.mcap --probability -o stale.svg   how sure it is that things are still there")]
 pub struct Plan {
     /// Recording, scene (JSON), house file (JSON), VirtualHome graph (JSON) or built-in house
@@ -39,6 +40,9 @@ pub struct Plan {
     /// Show by colour how probable it is that things are still where they were seen
     #[arg(long)]
     probability: bool,
+    /// Draw the way of the robot, from /tf; FRAME is base_link if left out
+    #[arg(long, value_name = "FRAME", num_args = 0..=1, default_missing_value = "base_link")]
+    path: Option<String>,
     /// New file to write: .svg or .png; SVG to standard output if left out
     #[arg(short, long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -83,8 +87,8 @@ impl Plan {
         if !built_in && (name == "-" || is_mcap(&self.source)) {
             return self.of_recording(&name);
         }
-        if self.since.is_some() || self.probability {
-            let problem = "--since and --probability are about recordings";
+        if self.since.is_some() || self.probability || self.path.is_some() {
+            let problem = "--since, --path and --probability are about recordings";
             return Err(UsageError(format!("{name}: {problem}")).into());
         }
         if !built_in && self.source.exists() {
@@ -114,6 +118,15 @@ impl Plan {
         }
         if let Some(before) = &before {
             plan = plan.with_changes(before.graph(), state.graph());
+        }
+        if let Some(frame) = &self.path {
+            let first = before.map_or(1, |before| before.order + 1);
+            let way = recording.way_of(frame, first, state.order)?;
+            if way.is_empty() {
+                let what = format!("{name}: /tf tells nothing of a frame {frame:?} by then");
+                return Err(anyhow::anyhow!("{what}; name another with --path FRAME"));
+            }
+            plan = plan.with_path(way);
         }
         Ok((plan, source::warn(&recording)))
     }

@@ -33,6 +33,7 @@ mod sink;
 mod state;
 mod summary;
 mod verify;
+mod way;
 
 pub use chain::{Chain, Link};
 pub use checkpoint::Checkpoint;

@@ -157,3 +157,21 @@ fn what_cannot_be_simulated_says_what_and_where() {
         assert!(!Path::new(out).exists(), "nothing is left behind");
     }
 }
+
+#[test]
+fn the_way_of_the_robot_is_drawn_from_the_recording_and_ends_where_it_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, _) = simulate(folder.path(), "in.mcap", &["--random", "1", "--seed", "2"]);
+    let recording = Recording::open(&path).unwrap();
+    let way = recording.way_of("base_link", 1, u64::MAX).unwrap();
+    assert!(way.len() > 50, "{} points", way.len());
+    let inside = |at: &[f64; 2]| (0.2..9.2).contains(&at[0]) && (0.2..8.4).contains(&at[1]);
+    assert!(way.iter().all(inside), "the apartment is 9.4 m by 8.6 m");
+    assert_eq!(recording.way_of("nobody", 1, u64::MAX).unwrap(), Vec::<[f64; 2]>::new());
+    let name = path.to_str().unwrap();
+    let svg = text(&["plan", name, "--path"]);
+    assert!(svg.len() > text(&["plan", name]).len() + 100, "nothing was drawn");
+    let wrong = program(&["plan", name, "--path", "nobody"]);
+    let error = String::from_utf8(wrong.stderr).unwrap();
+    assert!(!wrong.status.success() && error.contains("nobody"), "{error}");
+}
