@@ -5,7 +5,7 @@
 //! use scenefold::view::plan::Plan;
 //! let apartment = house::load("apartment").unwrap();
 //! let svg = Plan::of_house(&apartment).svg();
-//! assert!(svg.contains("living room"));
+//! assert!(svg.contains("LIVING ROOM"));
 //! ```
 
 mod draw;
