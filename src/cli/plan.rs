@@ -40,7 +40,7 @@ pub struct Plan {
     /// Show by colour how probable it is that things are still where they were seen
     #[arg(long)]
     probability: bool,
-    /// Draw the way of the robot, from /tf; FRAME is base_link if left out
+    /// Draw the way of the robot, from /tf; FRAME is `base_link` if left out
     #[arg(long, value_name = "FRAME", num_args = 0..=1, default_missing_value = "base_link")]
     path: Option<String>,
     /// New file to write: .svg or .png; SVG to standard output if left out
