@@ -11,7 +11,7 @@ use super::robot::behaviour::{Mind, Report};
 use super::robot::motion::Body;
 use super::scenario::check::{ActionError, Done, act};
 use super::scenario::{Scenario, ScenarioError};
-use super::world::{Presence, TrueWorld};
+use super::world::TrueWorld;
 use crate::event::Status;
 use crate::time::{Span, Stamp};
 
@@ -114,7 +114,7 @@ impl Story {
         &self.body
     }
 
-    /// How much of the time that must pass at least has passed, in seconds, and how long that is.
+    /// Seconds awake so far.
     pub fn progress_s(&self) -> f64 {
         self.awake as f64 / 1e9
     }
@@ -217,11 +217,6 @@ impl Story {
     fn carry(&mut self) {
         let world_from_gripper = self.body.world_from_base() * Body::base_from_gripper();
         self.world.carry(&world_from_gripper);
-    }
-
-    /// Whether the thing is in the gripper.
-    pub fn holds(&self, n: usize) -> bool {
-        self.world.presence(n) == Presence::Held
     }
 }
 
