@@ -12,7 +12,7 @@ use super::output::Output;
 use super::progress::counter;
 use super::source::text;
 use crate::simulation::house::{self, House};
-use crate::simulation::record::{Simulated, record};
+use crate::simulation::record::{Simulated, SimulationError, record};
 use crate::simulation::scenario::{Draw, Scenario, generate, paper_mission};
 use crate::simulation::sensor::NoiseConfig;
 
@@ -93,8 +93,12 @@ pub fn run(args: &Simulate, out: &mut Output) -> anyhow::Result<Outcome> {
         return Ok(Outcome::Clean);
     };
     let progress = counter("seconds simulated");
-    let done = record(&scenario, &house, path, &mut |s| progress.set_position(s as u64))
-        .with_context(|| source_name(args))?;
+    let done = record(&scenario, &house, path, &mut |s| progress.set_position(s as u64)).map_err(
+        |error| match error {
+            SimulationError::Story(_) => anyhow::Error::from(error).context(source_name(args)),
+            other => other.into(),
+        },
+    )?;
     progress.finish_and_clear();
     if args.json {
         out.json(&document(&scenario, &done))?;

@@ -95,6 +95,10 @@ impl Files {
             config
         };
         let (recording, truth_path) = (path.to_owned(), truth_of(path));
+        // Before either is made, so that a refusal leaves none.
+        if let Some(path) = [&recording, &truth_path].into_iter().find(|path| path.exists()) {
+            return Err(RecordError::Exists { path: path.clone() }.into());
+        }
         let mut inputs = Recorder::create(path, with(Detectors::None), &options)?;
         let mut truth = Recorder::create(&truth_path, with(Detectors::Truth), &options)?;
         let graph = house.graph(scenario.start);

@@ -172,3 +172,15 @@ fn the_way_of_the_robot_is_drawn_from_the_recording_and_ends_where_it_does() {
     let error = String::from_utf8(wrong.stderr).unwrap();
     assert!(!wrong.status.success() && error.contains("nobody"), "{error}");
 }
+
+#[test]
+fn a_truth_that_is_there_already_is_not_overwritten_and_nothing_is_left_beside_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let (path, truth) = (folder.path().join("in.mcap"), folder.path().join("in.truth.mcap"));
+    std::fs::write(&truth, "mine").unwrap();
+    let output = program(&["simulate", "-o", path.to_str().unwrap()]);
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(!output.status.success() && error.contains("in.truth.mcap"), "{error}");
+    assert_eq!(std::fs::read_to_string(truth).unwrap(), "mine");
+    assert!(!path.exists(), "half a simulation is left");
+}
